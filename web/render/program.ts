@@ -17,35 +17,31 @@ type Place = {
   number: number | null;
 };
 
-/** Two shaders that were linked, with their uniforms. */
+/** Two linked shaders, with their uniforms.
+ *
+ * Browsers compile beside the page until they are asked for results, so these are asked for at the first use. */
 export class Program {
   readonly #graphics: Graphics;
   readonly #gl: WebGL2RenderingContext;
   readonly #program: WebGLProgram;
-  readonly #places = new Map<string, Place>();
+  #places: Map<string, Place> | null = null;
 
-  /** Throws an Error with the compiler's message if the shaders are faulty. */
   constructor(graphics: Graphics, vertex: string, fragment: string) {
     const { gl } = graphics;
     [this.#graphics, this.#gl] = [graphics, gl];
-    this.#program = linked(gl, vertex, fragment);
-    const count = gl.getProgramParameter(this.#program, gl.ACTIVE_UNIFORMS) ?? 0; // null: the context is lost
-    for (let i = 0; i < count; i++) {
-      const { name, type } = gl.getActiveUniform(this.#program, i)!;
-      const location = gl.getUniformLocation(this.#program, name)!;
-      this.#places.set(name.replace("[0]", ""), { location, type, number: null });
-    }
+    this.#program = begun(gl, vertex, fragment);
   }
 
-  /** Takes the program for what is drawn next. */
+  /** Takes the program for what is drawn next. Throws an Error with the compiler's message if the shaders are faulty. */
   use(): void {
+    this.#places ??= placesOf(this.#gl, this.#program);
     this.#graphics.use(this.#program);
   }
 
   /** Sets the uniforms that the shaders read. The program must be in use. */
   set(uniforms: Readonly<Record<string, Uniform>>): void {
     for (const name in uniforms) {
-      const place = this.#places.get(name);
+      const place = this.#places!.get(name);
       if (place) this.#put(place, uniforms[name].value);
     }
   }
@@ -69,7 +65,7 @@ export class Program {
   }
 }
 
-function linked(gl: WebGL2RenderingContext, vertex: string, fragment: string): WebGLProgram {
+function begun(gl: WebGL2RenderingContext, vertex: string, fragment: string): WebGLProgram {
   const program = gl.createProgram();
   for (const [kind, source] of [
     [gl.VERTEX_SHADER, vertex],
@@ -83,9 +79,20 @@ function linked(gl: WebGL2RenderingContext, vertex: string, fragment: string): W
   }
   ATTRIBUTES.forEach((name, place) => gl.bindAttribLocation(program, place, name));
   gl.linkProgram(program);
+  return program;
+}
+
+function placesOf(gl: WebGL2RenderingContext, program: WebGLProgram): Map<string, Place> {
   if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
     throw new Error(`shaders do not link: ${gl.getProgramInfoLog(program)}\n${logs(gl, program)}`);
-  return program;
+  const count = gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS) ?? 0; // null: the context is lost
+  const places = new Map<string, Place>();
+  for (let i = 0; i < count; i++) {
+    const { name, type } = gl.getActiveUniform(program, i)!;
+    const location = gl.getUniformLocation(program, name)!;
+    places.set(name.replace("[0]", ""), { location, type, number: null });
+  }
+  return places;
 }
 
 function logs(gl: WebGL2RenderingContext, program: WebGLProgram): string {

@@ -53,8 +53,8 @@ export class Renderer {
     this.#draw(scene, camera, side, side, false);
   }
 
-  /** Makes the programs and geometries of all meshes, also of those that are hidden: the first picture of them is not
-   * late. */
+  /** Begins to make the programs and geometries of all meshes, also of those that are hidden: the first picture of them is
+   * not late. */
   prepare(scene: Object3D): void {
     scene.traverse((object) => {
       if (!(object instanceof Mesh)) return;
