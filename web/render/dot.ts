@@ -1,8 +1,8 @@
 import type { Color } from "three";
 
-import { Geometry } from "./geometry.ts";
 import { SCREEN } from "./lighting.ts";
 import { material, Mesh } from "./mesh.ts";
+import { quad } from "./quad.ts";
 
 const VERTEX = `
 uniform mat4 model, view, projection;
@@ -33,12 +33,11 @@ void main() {
 /** A disc with a white rim that faces the camera, in front of everything. Its scale is its diameter. */
 export class Dot extends Mesh {
   constructor(color: Color) {
-    const corners = new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]);
     super(
-      new Geometry({ position: { data: corners, size: 3 } }, new Uint32Array([0, 1, 2, 0, 2, 3])),
+      quad([-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]),
       material(
         { vertex: VERTEX, fragment: FRAGMENT, uniforms: { color: { value: color.toArray() } } },
-        { isTransparent: true, isHidden: false, hides: false },
+        { isTransparent: true, depthTest: false, depthWrite: false },
       ),
     );
     this.renderOrder = 5;

@@ -1,18 +1,10 @@
-import { Geometry } from "./geometry.ts";
 import { LIGHTING } from "./lighting.ts";
 import { material, Mesh } from "./mesh.ts";
+import { PLACED } from "./placed.ts";
 import type { Uniform } from "./program.ts";
+import { quad } from "./quad.ts";
 
 const HALF = 6;
-
-const VERTEX = `
-uniform mat4 model, view, projection;
-in vec3 position;
-out vec3 place;
-void main() {
-  place = (model * vec4(position, 1.0)).xyz;
-  gl_Position = projection * view * vec4(place, 1.0);
-}`;
 
 const FRAGMENT = `
 ${LIGHTING}
@@ -29,11 +21,10 @@ export class Ground extends Mesh {
   readonly #opacity: Uniform<number>;
 
   constructor() {
-    const corners = new Float32Array([-HALF, 0, HALF, HALF, 0, HALF, HALF, 0, -HALF, -HALF, 0, -HALF]);
     const opacity = { value: 0.28 };
     super(
-      new Geometry({ position: { data: corners, size: 3 } }, new Uint32Array([0, 1, 2, 0, 2, 3])),
-      material({ vertex: VERTEX, fragment: FRAGMENT, uniforms: { opacity } }, { isTransparent: true }),
+      quad([-HALF, 0, HALF], [HALF, 0, HALF], [HALF, 0, -HALF], [-HALF, 0, -HALF]),
+      material({ vertex: PLACED, fragment: FRAGMENT, uniforms: { opacity } }, { isTransparent: true }),
     );
     this.#opacity = opacity;
     this.renderOrder = -1; // it hides what is transparent and below it

@@ -12,11 +12,11 @@ export interface Material {
   /** Drawn after all that is opaque, from far to near. */
   isTransparent: boolean;
   /** Whether nearer fragments hide it. */
-  isHidden: boolean;
+  depthTest: boolean;
   /** Whether it hides what is farther away. */
-  hides: boolean;
+  depthWrite: boolean;
   /** Whether it consists of lines. */
-  readonly isOfLines: boolean;
+  readonly drawsLines: boolean;
 }
 
 /** An opaque material; `options` replace some of its parts. */
@@ -24,7 +24,7 @@ export function material(
   shaders: Pick<Material, "vertex" | "fragment" | "uniforms">,
   options: Partial<Omit<Material, "vertex" | "fragment" | "uniforms">> = {},
 ): Material {
-  const opaque = { isTransparent: false, isHidden: true, hides: true, isOfLines: false };
+  const opaque = { isTransparent: false, depthTest: true, depthWrite: true, drawsLines: false };
   return { ...shaders, ...opaque, ...options };
 }
 
@@ -53,7 +53,7 @@ export class Mesh extends Object3D {
     program.set({ model: { value: this.matrixWorld.elements } });
     geometry.bind(graphics);
     gl.drawElements(
-      material.isOfLines ? gl.LINES : gl.TRIANGLES,
+      material.drawsLines ? gl.LINES : gl.TRIANGLES,
       this.drawn,
       gl.UNSIGNED_INT,
       4 * this.first,

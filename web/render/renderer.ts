@@ -97,9 +97,9 @@ export class Renderer {
     gl.enable(gl.BLEND);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     for (const mesh of inOrder(meshes, camera)) {
-      const { isHidden, hides, fragment } = mesh.material;
-      isHidden ? gl.enable(gl.DEPTH_TEST) : gl.disable(gl.DEPTH_TEST);
-      gl.depthMask(hides);
+      const { depthTest, depthWrite, fragment } = mesh.material;
+      depthTest ? gl.enable(gl.DEPTH_TEST) : gl.disable(gl.DEPTH_TEST);
+      gl.depthMask(depthWrite);
       mesh.draw(graphics, fragment, seen);
     }
     gl.disable(gl.BLEND);

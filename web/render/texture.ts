@@ -1,8 +1,16 @@
 import type { Graphics } from "./graphics.ts";
 
-/** Kinds of texels, as in GLSL: four floats, four 16-bit and two 32-bit whole numbers, a share of 255, colours in sRGB,
- * and depths that are compared. */
-export type Format = "rgba32f" | "rgba16i" | "rg32i" | "r8" | "srgb" | "depth";
+/** Kinds of texels: four floats, four 16-bit and two 32-bit whole numbers, a share of 255, colours in sRGB, and depths that
+ * are compared. Each has an internal format, a format and a type of WebGL. */
+const FORMATS = {
+  rgba32f: ["RGBA32F", "RGBA", "FLOAT"],
+  rgba16i: ["RGBA16I", "RGBA_INTEGER", "SHORT"],
+  rg32i: ["RG32I", "RG_INTEGER", "INT"],
+  r8: ["R8", "RED", "UNSIGNED_BYTE"],
+  srgb: ["SRGB8_ALPHA8", "RGBA", "UNSIGNED_BYTE"],
+  depth: ["DEPTH_COMPONENT24", "DEPTH_COMPONENT", "UNSIGNED_INT"],
+} as const;
+type Format = keyof typeof FORMATS;
 
 type Pixels = ArrayBufferView | ImageBitmap;
 
@@ -97,7 +105,7 @@ export class Texture {
   #send(gl: WebGL2RenderingContext): void {
     this.#isChanged = false;
     const target = this.#target(gl);
-    const [internal, format, type] = kindOf(gl, this.format);
+    const [internal, format, type] = FORMATS[this.format].map((name) => gl[name]);
     const { width, height, layers } = this;
     const data = this.#data as ArrayBufferView; // or a picture, which WebGL takes as well
     gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
@@ -121,24 +129,4 @@ function refine(gl: WebGL2RenderingContext, target: GLenum): void {
   if (!sharp) return;
   const most = gl.getParameter(sharp.MAX_TEXTURE_MAX_ANISOTROPY_EXT) as number;
   gl.texParameterf(target, sharp.TEXTURE_MAX_ANISOTROPY_EXT, Math.min(most, MOST_ANISOTROPY));
-}
-
-function kindOf(
-  gl: WebGL2RenderingContext,
-  kind: Format,
-): readonly [internal: GLenum, format: GLenum, type: GLenum] {
-  switch (kind) {
-    case "rgba32f":
-      return [gl.RGBA32F, gl.RGBA, gl.FLOAT];
-    case "rgba16i":
-      return [gl.RGBA16I, gl.RGBA_INTEGER, gl.SHORT];
-    case "rg32i":
-      return [gl.RG32I, gl.RG_INTEGER, gl.INT];
-    case "r8":
-      return [gl.R8, gl.RED, gl.UNSIGNED_BYTE];
-    case "srgb":
-      return [gl.SRGB8_ALPHA8, gl.RGBA, gl.UNSIGNED_BYTE];
-    case "depth":
-      return [gl.DEPTH_COMPONENT24, gl.DEPTH_COMPONENT, gl.UNSIGNED_INT];
-  }
 }

@@ -1,6 +1,6 @@
 import { Color, Group, Quaternion, Vector3 } from "three";
 
-import { Geometry, material, Mesh, SCREEN, type Uniform } from "../render/index.ts";
+import { Geometry, material, Mesh, PLACED, quad, SCREEN, type Uniform } from "../render/index.ts";
 import { AXIS_COLORS } from "./axis_colors.ts";
 
 /** Lengths as shares of the gizmo's size: the ends of arrows, the sides of squares between two arrows, and the radii of the
@@ -23,14 +23,6 @@ const UNITS = [new Vector3(1, 0, 0), Y, new Vector3(0, 0, 1)];
 /** An arrow moves along an axis, a square across one, and a ring turns about one. */
 export type PartKind = "arrow" | "square" | "ring" | "view";
 
-const VERTEX = `
-uniform mat4 model, view, projection;
-in vec3 position;
-out vec3 place;
-void main() {
-  place = (model * vec4(position, 1.0)).xyz;
-  gl_Position = projection * view * vec4(place, 1.0);
-}`;
 /** Rings without what is behind. */
 const FRAGMENT = `
 precision highp float;
@@ -63,8 +55,8 @@ export class GizmoPart {
       opacity: { value: opacity },
       isRing: { value: kind === "ring" },
     };
-    const look = { isTransparent: true, isHidden: false, hides: false };
-    this.mesh = new Mesh(geometry, material({ vertex: VERTEX, fragment: FRAGMENT, uniforms }, look));
+    const look = { isTransparent: true, depthTest: false, depthWrite: false };
+    this.mesh = new Mesh(geometry, material({ vertex: PLACED, fragment: FRAGMENT, uniforms }, look));
     this.mesh.renderOrder = kind === "square" ? 6 : 7; // after the dots of handles
     if (axis >= 0) this.mesh.quaternion.setFromUnitVectors(Y, UNITS[axis]);
     this.isActive = false;
@@ -157,18 +149,10 @@ function grid(lines: readonly ((angle: number) => number[])[], count: number): G
 
 function squareAcross(axis: number): Geometry {
   const [from, to] = SQUARE;
-  const corners = [
-    [from, from],
-    [to, from],
-    [to, to],
-    [from, to],
-  ].map(([a, b]) => {
-    const corner = [0, 0, 0];
-    [corner[(axis + 1) % 3], corner[(axis + 2) % 3]] = [a, b];
-    return corner;
-  });
-  return new Geometry(
-    { position: { data: new Float32Array(corners.flat()), size: 3 } },
-    new Uint32Array([0, 1, 2, 0, 2, 3]),
-  );
+  const corner = (a: number, b: number) => {
+    const place: [number, number, number] = [0, 0, 0];
+    [place[(axis + 1) % 3], place[(axis + 2) % 3]] = [a, b];
+    return place;
+  };
+  return quad(corner(from, from), corner(to, from), corner(to, to), corner(from, to));
 }

@@ -2,7 +2,7 @@ import { Color, Matrix4, Vector3 } from "three";
 
 import type { Vector } from "../engine/motion.ts";
 import type { RestMesh } from "../engine/rest_mesh.ts";
-import { flat, Geometry, Mesh } from "../render/index.ts";
+import { flat, Mesh, quad, type Geometry } from "../render/index.ts";
 import { boxOf } from "./box_of.ts";
 import type { Stage } from "./stage.ts";
 
@@ -25,7 +25,7 @@ export class MirrorPlane {
     this.#stage = stage;
     this.#up = UP[up];
     this.#middle = boxOf(shape).getCenter(new Vector3());
-    this.#square = new Mesh(square(diagonal), flat(COLOR, OPACITY, { hides: false }));
+    this.#square = new Mesh(square(diagonal), flat(COLOR, OPACITY, { depthWrite: false }));
     this.#square.name = "mirror plane";
     this.#square.visible = false;
     stage.root.add(this.#square);
@@ -60,8 +60,6 @@ export class MirrorPlane {
 
 /** Across z, around the origin. */
 function square(side: number): Geometry {
-  const corners = new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]).map(
-    (place) => (place * side) / 2,
-  );
-  return new Geometry({ position: { data: corners, size: 3 } }, new Uint32Array([0, 1, 2, 0, 2, 3]));
+  const half = side / 2;
+  return quad([-half, -half, 0], [half, -half, 0], [half, half, 0], [-half, half, 0]);
 }

@@ -21,7 +21,7 @@ export class Marks {
       const [x, y, z] = boxes[handle].translation;
       if (handle === 0 || !(x > 0 || y > 0 || z > 0)) return;
       const color = new Color(handleColor(handle));
-      const lines = new Mesh(boxEdges(x, y, z), flat(color, BOX_OPACITY, { isOfLines: true }));
+      const lines = new Mesh(boxEdges(x, y, z), flat(color, BOX_OPACITY, { drawsLines: true }));
       lines.position.set(...center);
       this.#boxes.set(handle, lines);
       posing.surface.object.add(lines); // the box is relative to the first handle

@@ -160,7 +160,7 @@ export class Surface {
   /** Draws it pale and without a shadow. */
   fade(opacity: number): void {
     this.#uniforms.opacity.value = opacity;
-    Object.assign(this.#solid.material, { isTransparent: true, hides: false });
+    Object.assign(this.#solid.material, { isTransparent: true, depthWrite: false });
     this.#solid.castsShadow = this.#uniforms.isShadowed.value = false;
   }
 

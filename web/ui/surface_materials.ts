@@ -48,6 +48,6 @@ export function wires(uniforms: SurfaceUniforms): Material {
   };
   return material(
     { vertex: surfaceVertex("EDGES"), fragment: FLAT, uniforms: { ...uniforms, ...own } },
-    { isTransparent: true, isOfLines: true },
+    { isTransparent: true, drawsLines: true },
   );
 }
