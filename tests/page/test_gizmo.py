@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from snapspace.problem.motion import rotation_matrix
 
 from .pages import OpenPage, Page
+from .test_interaction import UNDO
 
 ACTIVE = "#ffd23f"
 #: The gizmo's own lengths, see web/ui/gizmo_parts.ts.
@@ -136,6 +137,47 @@ def test_the_dot_in_the_middle_is_dragged_freely(moving: Page) -> None:
     _, shift = motion(page)
     assert np.abs(shift).min() > 1e-3, "along no axis"
     assert np.linalg.norm(handle_in_window(page) - middle - [30, -20]) < 5
+
+
+def test_after_a_cancelled_drag_the_gizmo_works_as_before(moving: Page) -> None:
+    page, mouse = moving, moving.page.mouse
+    unit = np.eye(3)[0]
+    start, further = in_window(page, ON_ARROW * unit, unit)
+    mouse.move(*start)
+    mouse.down()
+    mouse.move(*(start + 2 * (further - start)), steps=3)
+    page.settle()
+    assert np.linalg.norm(motion(page)[1]) > 0.01
+    page.page.keyboard.press("Escape")
+    mouse.up()
+    page.settle()
+    assert np.allclose(motion(page)[1], 0)
+    page.drag((start[0], start[1]), *(further - start))
+    shift = motion(page)[1]
+    assert abs(shift[0]) > 0.01 and np.allclose(shift[1:], 0, atol=1e-9), "along the axis again"
+    page.page.keyboard.press("t")
+    page.settle()
+    assert page.run("snapspace.stage.scene.getObjectByName('gizmo').visible")
+
+
+def test_a_press_without_a_drag_is_no_step(moving: Page) -> None:
+    ((x, y),) = in_window(moving, ON_ARROW * np.eye(3)[0])
+    moving.drag((x, y), 0, 0)
+    assert moving.run(f"{UNDO}.disabled")
+
+
+@pytest.mark.parametrize("view", ["Numpad7", "Numpad8", "Numpad9"])
+def test_it_is_as_large_right_after_a_jump_of_the_view(moving: Page, view: str) -> None:
+    """As a share of the distance of the picture."""
+    size = """(() => {
+      const { camera, scene } = snapspace.stage, gizmo = scene.getObjectByName("gizmo");
+      const depth = -gizmo.position.clone().applyMatrix4(camera.matrixWorldInverse).z;
+      return gizmo.scale.x / depth;
+    })()"""
+    before = moving.run(size)
+    moving.page.keyboard.press(view)
+    moving.settle()
+    assert np.isclose(moving.run(size), before, rtol=1e-6)
 
 
 def test_an_arrow_that_points_at_the_camera_is_gone(moving: Page) -> None:

@@ -21,13 +21,15 @@ from .pages import OpenPage, Page
 
 RED, BLUE = (220, 30, 30), (30, 40, 220)
 MATERIAL = "[...document.querySelectorAll('[role=radio]')].find((b) => b.innerText == 'Material')"
+#: Pixels; the graphics of the tests take 8192 along a side.
+WIDER_THAN_TEXTURES = 9000
 GLOW = 25  # light changes colours, but not which part is the largest
 
 
-def picture(*halves: tuple[int, int, int]) -> bytes:
+def picture(*halves: tuple[int, int, int], width: int = 8) -> bytes:
     """A PNG whose upper half has one colour and whose lower half the other one."""
-    image = Image.new("RGB", (8, 8), halves[0])
-    image.paste(halves[1], (0, 4, 8, 8))
+    image = Image.new("RGB", (width, 8), halves[0])
+    image.paste(halves[1], (0, 4, width, 8))
     file = io.BytesIO()
     image.save(file, "PNG")
     return file.getvalue()
@@ -111,6 +113,21 @@ def test_its_texture_moves_with_the_shape(
     page.settle()
     clay = pixel(page, *ends(page)[0])
     assert np.ptp(clay) < 90 and clay[0] >= clay[2], "clay, no longer the texture"
+
+
+def test_a_picture_that_is_too_large_for_the_graphics_is_scaled(
+    posing_model: PosingModel, tmp_path: Path, opened: OpenPage
+) -> None:
+    file = own_file(posing_model)
+    large = picture(RED, BLUE, width=WIDER_THAN_TEXTURES)
+    page = opened_with(
+        posing_model, replace(file, beside={**file.beside, "own.png": large}), tmp_path, opened
+    )
+    assert page.run("snapspace.stage.renderer.graphics.mostTexels") < WIDER_THAN_TEXTURES
+    first, last = ends(page)
+    blue, red = pixel(page, *first), pixel(page, *last)
+    assert blue[2] > blue[0] + GLOW, blue
+    assert red[0] > red[2] + GLOW, red
 
 
 def test_a_model_file_brings_its_materials(

@@ -16,7 +16,6 @@ void main() {
 
 /** Radii as shares of half the size. */
 const FRAGMENT = `
-precision highp float;
 uniform vec3 color;
 in vec2 at;
 out vec4 shown;

@@ -4,6 +4,13 @@ import type { Texture } from "./texture.ts";
 /** Units of textures that every browser has. */
 const UNITS = 16;
 
+/** The browser has taken the context away; mostly it gives it back soon. */
+export class LostGraphics extends RangeError {
+  constructor() {
+    super("The browser has no graphics for this page at the moment; try again.");
+  }
+}
+
 /** The WebGL 2 context of a canvas, and the programs that were compiled in it.
  *
  * Browsers may take a context away and give it back empty. Textures, geometries and programs compare `generation`, and
@@ -18,10 +25,10 @@ export class Graphics {
   #generation = 0;
   /** By vertex shader, then by fragment shader. */
   readonly #programs = new Map<string, Map<string, Program>>();
-  /** Textures that are bound to units, and when they were last used. Most stay there from picture to picture. */
+  /** Textures that are bound to units, and the number of the last use of each. Most stay there from picture to picture. */
   readonly #held = new Array<Texture | null>(UNITS).fill(null);
   readonly #uses = new Array<number>(UNITS).fill(0);
-  #time = 0;
+  #count = 0;
   #used: WebGLProgram | null = null;
 
   /** Throws an Error in browsers without WebGL 2. */
@@ -64,12 +71,13 @@ export class Graphics {
     return program;
   }
 
+  /** Takes a program for what is drawn next. */
   use(program: WebGLProgram): void {
     if (this.#used !== program) this.gl.useProgram(program);
     this.#used = program;
   }
 
-  /** The unit to which a texture is bound: its own, or the one that was not used for longest. */
+  /** The unit to which a texture is bound: its own, or the least recently used one. */
   unitOf(texture: Texture, target: GLenum, handle: WebGLTexture): number {
     let unit = this.#held.indexOf(texture);
     if (unit < 0) {
@@ -78,7 +86,7 @@ export class Graphics {
       this.gl.activeTexture(this.gl.TEXTURE0 + unit);
       this.gl.bindTexture(target, handle);
     }
-    this.#uses[unit] = ++this.#time;
+    this.#uses[unit] = ++this.#count;
     return unit;
   }
 

@@ -1,7 +1,7 @@
 export { Dot } from "./dot.ts";
-export { flat, FLAT, NEARER } from "./flat.ts";
+export { flat, FLAT, NEARER, ON_SCREEN } from "./flat.ts";
 export { Geometry, type Attribute } from "./geometry.ts";
-export { Graphics } from "./graphics.ts";
+export { Graphics, LostGraphics } from "./graphics.ts";
 export { Ground } from "./ground.ts";
 export { LIGHTING, SCREEN } from "./lighting.ts";
 export { material, Mesh, type Material } from "./mesh.ts";

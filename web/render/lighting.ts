@@ -3,9 +3,6 @@
  * `lit` is what a matt body with a coat of refractive index 1.5 reflects: Lambert's diffuse part, and the specular part of
  * Trowbridge and Reitz (GGX) with Smith's masking (Heitz 2014) and Schlick's Fresnel factor, as glTF 2.0 has them. */
 export const LIGHTING = `
-precision highp float;
-precision highp int;
-precision highp sampler2DShadow;
 uniform vec3 eye;
 uniform vec3 lightDirections[2];
 uniform vec3 lightColors[2];

@@ -10,6 +10,19 @@ export interface Uniform<Value extends UniformValue = UniformValue> {
   value: Value;
 }
 
+/** Phones may have less by default: 16 bits for whole numbers, and less than those for textures. */
+const PRECISION = [
+  "float",
+  "int",
+  "sampler2D",
+  "isampler2D",
+  "sampler2DArray",
+  "isampler2DArray",
+  "sampler2DShadow",
+]
+  .map((type) => `precision highp ${type};\n`)
+  .join("");
+
 type Place = {
   readonly location: WebGLUniformLocation;
   readonly type: number;
@@ -72,7 +85,7 @@ function begun(gl: WebGL2RenderingContext, vertex: string, fragment: string): We
     [gl.FRAGMENT_SHADER, fragment],
   ] as const) {
     const shader = gl.createShader(kind)!;
-    gl.shaderSource(shader, `#version 300 es\n${source.trim()}`);
+    gl.shaderSource(shader, `#version 300 es\n${PRECISION}${source}`);
     gl.compileShader(shader);
     gl.attachShader(program, shader);
     gl.deleteShader(shader); // with the program
@@ -88,9 +101,9 @@ function placesOf(gl: WebGL2RenderingContext, program: WebGLProgram): Map<string
   const count = gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS) ?? 0; // null: the context is lost
   const places = new Map<string, Place>();
   for (let i = 0; i < count; i++) {
-    const { name, type } = gl.getActiveUniform(program, i)!;
-    const location = gl.getUniformLocation(program, name)!;
-    places.set(name.replace("[0]", ""), { location, type, number: null });
+    const found = gl.getActiveUniform(program, i);
+    const location = found && gl.getUniformLocation(program, found.name);
+    if (location) places.set(found.name.replace("[0]", ""), { location, type: found.type, number: null });
   }
   return places;
 }

@@ -10,7 +10,7 @@ const SIDE = 1024; // texels
 /** What the key light sees, around the origin. */
 const [HALF, NEAR, FAR] = [1.3, 0.5, 6];
 const [ORIGIN, UP] = [new Vector3(), new Vector3(0, 1, 0)];
-const NOTHING = "precision mediump float; void main() {}";
+const NOTHING = "void main() {}";
 
 /** From -1 to 1 to texels' 0 to 1. */
 const TO_TEXELS = new Matrix4().set(0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1);

@@ -1,4 +1,4 @@
-import type { Graphics } from "./graphics.ts";
+import { LostGraphics, type Graphics } from "./graphics.ts";
 import { Texture, type TextureOptions } from "./texture.ts";
 
 /** A texture that is drawn into. */
@@ -28,10 +28,11 @@ export class Target {
     gl.viewport(0, 0, width, height);
   }
 
-  /** The texels of a target of floats, four numbers each. */
+  /** The texels of a target of floats, four numbers each. Throws `LostGraphics` while the context is lost. */
   read(): Float32Array<ArrayBuffer> {
     const { gl } = this.#graphics;
     const { width, height } = this.texture;
+    if (this.#graphics.isLost) throw new LostGraphics();
     const texels = new Float32Array(4 * width * height);
     this.bind();
     gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, texels);

@@ -42,7 +42,7 @@ export async function blendingView(
 ): Promise<View> {
   const session = await BlendingSession.create(module, model);
   const rests = posesOf(model);
-  const own = model.appearance ? new OwnLook(model.appearance) : null;
+  const own = model.appearance ? new OwnLook(model.appearance, stage.renderer.graphics.mostTexels) : null;
   const make = (space: BlendingModel["space"]) =>
     new Surface(stage.renderer.graphics, space, model.faces, model.diagonal, options.forceCpu, rests, own);
   const [elastic, straight] = [make(model.space), make(model.poseSpace)];
@@ -195,6 +195,7 @@ export async function blendingView(
   };
   stage.restored = () => {
     for (const surface of [elastic, straight]) surface.refresh();
+    ghosts.refresh();
   };
   stage.afterFrame = () => {
     if (path.playing || jiggle.moves || timeline.isPlaying) stage.draw();

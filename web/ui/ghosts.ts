@@ -42,6 +42,11 @@ export class Ghosts {
     this.#stage.draw();
   }
 
+  /** Computes them again, after the graphics were lost. */
+  refresh(): void {
+    for (const surface of this.#surfaces) surface.refresh();
+  }
+
   /** Removes all surfaces, for instance because the model is another one. */
   clear(): void {
     for (const surface of this.#surfaces) {

@@ -1,4 +1,4 @@
-import { Quaternion, Vector3, type Ray } from "three";
+import { Plane, Quaternion, Vector3, type Ray } from "three";
 
 import type { Motion } from "../engine/index.ts";
 import { inWindow, rayAt } from "./canvas_ray.ts";
@@ -8,6 +8,10 @@ import { quaternionOf, rotationOf } from "./rotations.ts";
 
 /** Pixels per radian that a ring is taken to move at least: where it runs towards the camera it seems to stand still. */
 const LEAST_PIXELS = 30;
+/** The pointer is followed in the plane of a ring or square whose axis has at least this cosine with the view. */
+const LEAST_ACROSS = 0.3;
+/** How far a square is dragged at most, in diagonals: near the horizon the pointer is as far as one likes. */
+const FARTHEST = 3;
 
 /** The motion that a handle is asked for while the pointer is at a point of the window. */
 export type Drag = (x: number, y: number) => Motion;
@@ -27,22 +31,43 @@ function alongAxis(frame: GizmoFrame, axis: Vector3, start: Motion, x: number, y
 }
 
 function acrossAxis(frame: GizmoFrame, axis: Vector3, start: Motion, x: number, y: number): Drag {
-  const place = (x: number, y: number) => {
-    const { origin, direction } = rayAt(frame.stage, x, y);
-    const along = frame.middle.clone().sub(origin).dot(axis) / direction.dot(axis);
-    return along > 0 ? origin.addScaledVector(direction, along) : null; // behind the camera: past the horizon
-  };
+  const place = inPlane(frame, axis);
   const from = place(x, y)!;
-  let last = from;
+  let way = new Vector3();
   return (x, y) => {
-    last = place(x, y) ?? last;
-    return shifted(frame, start, last.clone().sub(from));
+    way = place(x, y)?.sub(from).clampLength(0, FARTHEST) ?? way;
+    return shifted(frame, start, way.clone());
   };
 }
 
-/** The way of the pointer along the ring, where it was taken hold of. */
 function aboutAxis(frame: GizmoFrame, part: GizmoPart, start: Motion, x: number, y: number): Drag {
   const axis = frame.axes[part.axis];
+  return Math.abs(axis.dot(frame.toCamera)) >= LEAST_ACROSS
+    ? aroundAxis(frame, axis, start, x, y)
+    : alongRing(frame, part, axis, start, x, y);
+}
+
+/** The angle of the pointer about the axis, in the plane of the ring. */
+function aroundAxis(frame: GizmoFrame, axis: Vector3, start: Motion, x: number, y: number): Drag {
+  const place = inPlane(frame, axis);
+  const from = place(x, y)!.sub(frame.middle);
+  let angle = 0;
+  return (x, y) => {
+    const to = place(x, y)?.sub(frame.middle);
+    if (to) angle = Math.atan2(from.clone().cross(to).dot(axis), from.dot(to));
+    return turned(frame, start, axis, angle);
+  };
+}
+
+/** The way of the pointer along a ring that is seen from its edge, where it was taken hold of. */
+function alongRing(
+  frame: GizmoFrame,
+  part: GizmoPart,
+  axis: Vector3,
+  start: Motion,
+  x: number,
+  y: number,
+): Drag {
   const held = frame.nearestOn(part, x, y);
   const [hx, hy] = inWindow(frame.stage, held);
   const step = 1e-3;
@@ -59,6 +84,12 @@ function aboutView(frame: GizmoFrame, start: Motion, x: number, y: number): Drag
   const angle = (x: number, y: number) => Math.atan2(my - y, x - mx);
   const from = angle(x, y);
   return (x, y) => turned(frame, start, frame.toCamera, angle(x, y) - from);
+}
+
+/** The point below the pointer in the plane across an axis through the middle; null past the horizon. */
+function inPlane({ stage, middle }: GizmoFrame, axis: Vector3): (x: number, y: number) => Vector3 | null {
+  const plane = new Plane().setFromNormalAndCoplanarPoint(axis, middle);
+  return (x, y) => rayAt(stage, x, y).intersectPlane(plane, new Vector3());
 }
 
 /** Where on an axis the point is that is nearest to a ray, as a length from the middle. */

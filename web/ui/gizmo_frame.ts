@@ -1,13 +1,14 @@
 import { Vector3, type Quaternion } from "three";
 
-import { inWindow } from "./canvas_ray.ts";
+import { inWindow, rayAt } from "./canvas_ray.ts";
 import { ARROW, BEHIND, RING, SQUARE, VIEW_RING, type GizmoPart } from "./gizmo_parts.ts";
 import type { Stage } from "./stage.ts";
 
 /** How far the pointer may be from an arrow or ring, in pixels. */
 const REACH = { mouse: 7, touch: 16 };
-/** The dot in the middle is the handle itself, which is dragged freely: its radius in pixels. */
-const DOT = 9;
+/** The dot in the middle is the handle itself, which is dragged freely: its radius on the stage, and the largest share of
+ * the gizmo that is left to it. */
+const [DOT, MOST_OF_GIZMO] = [0.017, 0.2];
 /** Arrows that point at the camera, and squares that are seen from their edges, cannot be dragged. */
 const [MOST_ALONG, LEAST_ACROSS] = [0.97, 0.2];
 /** Points of a ring that are looked at. */
@@ -41,10 +42,11 @@ export class GizmoFrame {
 
   /** The part at a point of the window: a square, or the nearest arrow or ring. */
   partAt(parts: readonly GizmoPart[], x: number, y: number, isTouch: boolean): GizmoPart | null {
-    const [mx, my] = this.#pixel(this.middle);
-    if (Math.hypot(x - mx, y - my) < DOT) return null;
+    const { direction, origin } = rayAt(this.stage, x, y);
+    const away = origin.clone().sub(this.middle).cross(direction).length();
+    if (away < Math.min(DOT, MOST_OF_GIZMO * this.size)) return null;
     const usable = parts.filter((part) => part.mesh.visible);
-    const inside = usable.find((part) => part.kind === "square" && isInside(this.#square(part), x, y));
+    const inside = usable.findLast((part) => part.kind === "square" && isInside(this.#square(part), x, y));
     if (inside) return inside;
     let [best, nearest]: [GizmoPart | null, number] = [null, isTouch ? REACH.touch : REACH.mouse];
     for (const part of usable) {
@@ -61,7 +63,7 @@ export class GizmoFrame {
     const about = kind === "view" ? this.toCamera : this.axes[axis];
     const front = this.toCamera.clone().addScaledVector(about, -about.dot(this.toCamera));
     const seen = kind === "view" || front.length() <= BEHIND ? Math.PI : Math.acos(-BEHIND / front.length());
-    if (front.length() < 1e-3) front.set(about.y, about.z, about.x).cross(about); // any
+    if (front.length() < 1e-3) front.copy(acrossOf(about));
     const radius = (kind === "view" ? VIEW_RING : RING) * this.size;
     front.setLength(radius);
     return Array.from({ length: POINTS + 1 }, (_, i) =>
@@ -105,6 +107,12 @@ export class GizmoFrame {
   #pixel(place: Vector3): Pixel {
     return inWindow(this.stage, place);
   }
+}
+
+/** Any vector across a unit vector. */
+function acrossOf({ x, y, z }: Vector3): Vector3 {
+  const isAlongX = Math.abs(x) > 0.7;
+  return new Vector3(isAlongX ? 0 : 1, isAlongX ? 1 : 0, 0).cross(new Vector3(x, y, z));
 }
 
 /** From a point to a line through pixels. */

@@ -25,7 +25,6 @@ export type PartKind = "arrow" | "square" | "ring" | "view";
 
 /** Rings without what is behind. */
 const FRAGMENT = `
-precision highp float;
 uniform mat4 model;
 uniform vec3 eye, color;
 uniform float opacity;

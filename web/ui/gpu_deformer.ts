@@ -10,9 +10,6 @@ export const MOST_MODES = 256;
 
 /** base + sum_i c_i modes_i, one texel per vertex; mode i is layer i. Then a share of the path to a goal. */
 const POSITIONS = `
-precision highp float;
-precision highp sampler2D;
-precision highp isampler2DArray;
 uniform sampler2D base;
 uniform isampler2DArray modes;
 uniform vec4 coefficients[${MOST_MODES / 4}];
@@ -31,9 +28,6 @@ void main() {
 
 /** The sum of the normals of the faces around a vertex, weighted by area. */
 const NORMALS = `
-precision highp float;
-precision highp sampler2D;
-precision highp isampler2D;
 uniform sampler2D positions;
 uniform isampler2D ranges;
 uniform isampler2D pairs;
@@ -176,10 +170,10 @@ function floats(rows: Float32Array, width: number, height: number): Texture {
 
 /** Modes as layers of an array of textures, without a copy in floats. */
 function layers(space: ShapeSpace, width: number, height: number): Texture {
-  const count = space.scales.length;
+  const count = Math.max(space.scales.length, 1); // without modes one that nobody reads
   const texels = new Int16Array(4 * width * height * count);
   const size = 3 * space.vertices;
-  for (let mode = 0; mode < count; mode++)
+  for (let mode = 0; mode < space.scales.length; mode++)
     for (let from = 0, to = 4 * width * height * mode; from < size; from += 3, to += 4)
       for (let axis = 0; axis < 3; axis++) texels[to + axis] = space.modes[mode * size + from + axis];
   return new Texture({ format: "rgba16i", width, height, layers: count, data: texels });

@@ -52,6 +52,7 @@ export function runPasses(graphics: Graphics, passes: readonly Pass[]): void {
   const { gl } = graphics;
   if (graphics.isLost) return; // all is drawn again once it is back
   gl.disable(gl.DEPTH_TEST);
+  gl.disable(gl.BLEND); // floats may not be blended
   for (const pass of passes) pass.draw();
   gl.bindFramebuffer(gl.FRAMEBUFFER, null);
 }

@@ -5,10 +5,6 @@ import { floatTarget, Pass, runPasses } from "./gpu_pass.ts";
 
 /** The strains of web/engine/membrane_strain.ts, one vertex per texel. */
 const STRAINS = `
-precision highp float;
-precision highp sampler2D;
-precision highp sampler2DArray;
-precision highp isampler2D;
 uniform sampler2D positions;
 uniform isampler2D ranges;
 uniform isampler2D pairs;

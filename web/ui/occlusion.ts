@@ -14,9 +14,6 @@ const SOME = 64;
 
 /** In the first row the middles of patches, in the second one their areas times their normals. */
 const PATCHES = `
-precision highp float;
-precision highp sampler2D;
-precision highp isampler2D;
 uniform sampler2D positions;
 uniform sampler2D normals;
 uniform isampler2D order;
@@ -43,8 +40,6 @@ void main() {
 /** The light that patches leave to vertices. A patch hides as much as a disk (Bunnell 2005); behind several disks it is darker
  * than behind one, but never black. How dark is a matter of taste. */
 const LIGHT = `
-precision highp float;
-precision highp sampler2D;
 uniform sampler2D positions;
 uniform sampler2D normals;
 uniform sampler2D patches;

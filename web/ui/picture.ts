@@ -1,5 +1,6 @@
 import { Color } from "three";
 
+import { LostGraphics } from "../render/index.ts";
 import type { Stage } from "./stage.ts";
 
 /** Width and height in pixels. */
@@ -18,7 +19,7 @@ export function paper(): Color {
 
 /** Draws the stage at any size, and lets `take` read the canvas before the browser shows anything.
  *
- * Throws a RangeError for a size that the graphics cannot draw. */
+ * Throws a RangeError for a size that the graphics cannot draw, and `LostGraphics`. */
 export function drawAt<T>(
   stage: Stage,
   { width, height }: Size,
@@ -27,6 +28,7 @@ export function drawAt<T>(
 ): T {
   const { renderer, camera, scene } = stage;
   const aspect = camera.aspect;
+  if (renderer.graphics.isLost) throw new LostGraphics();
   try {
     renderer.setSize(width, height, 1);
     if (renderer.gl.drawingBufferWidth !== width || renderer.gl.drawingBufferHeight !== height)

@@ -22,8 +22,6 @@ export class Posing {
   onSolved: (report: FrameReport) => void = () => {};
   /** After the end of a drag, and when a swing has come to rest. */
   onReleased: () => void = () => {};
-  /** After a drag was cancelled, while the pointer is still down. */
-  onCancelled: () => void = () => {};
   /** After selection, mode or history have changed. */
   onChange: () => void = () => {};
   #session: PosingSession;
@@ -212,7 +210,6 @@ export class Posing {
     if (!before || this.#isCancelled) return;
     this.#goTo(before);
     this.#isCancelled = true;
-    this.onCancelled();
   }
 
   /** Ends a drag in which nothing moved. */

@@ -9,6 +9,8 @@ import { quaternionOf } from "./rotations.ts";
 
 /** The length of its arrows as a share of half the height of the picture. */
 const SIZE = 0.17;
+/** Pixels before a press becomes a drag. */
+const LEAST_WAY = 2;
 
 /** Arrows or rings at the selected handle, along the axes of the model or of the handle, in their colours. */
 export class Gizmo {
@@ -17,7 +19,7 @@ export class Gizmo {
   readonly #parts = new GizmoParts();
   #frame: GizmoFrame | null = null;
   #active: GizmoPart | null = null;
-  #drag: { pointer: number; ask: Drag } | null = null;
+  #drag: { pointer: number; handle: number; x: number; y: number; moved: boolean; ask: Drag } | null = null;
 
   constructor(posing: Posing, signal: AbortSignal) {
     this.#posing = posing;
@@ -37,11 +39,6 @@ export class Gizmo {
     return this.#active !== null;
   }
 
-  /** Ends the present drag, which the posing has cancelled. */
-  cancel(): void {
-    this.#end();
-  }
-
   /** Follows the selected handle and the camera, before each picture. */
   update(): void {
     const { selected, session, mode, stage, isLocal } = this.#posing;
@@ -53,6 +50,7 @@ export class Gizmo {
       return;
     }
     const { camera, root } = stage;
+    camera.updateMatrixWorld(); // it may just have jumped
     const turned = root.quaternion.clone();
     if (isLocal) turned.multiply(quaternionOf(session.motion(selected).rotation));
     const middle = new Vector3(...session.place(selected)).applyMatrix4(root.matrixWorld);
@@ -82,6 +80,7 @@ export class Gizmo {
   };
 
   dispose(): void {
+    if (this.#drag) this.#end();
     this.#parts.dispose();
   }
 
@@ -96,28 +95,38 @@ export class Gizmo {
     const ask = dragOf(this.#frame, this.#active, start, event.clientX, event.clientY);
     this.#drag = {
       pointer: event.pointerId,
+      handle: selected,
+      x: event.clientX,
+      y: event.clientY,
+      moved: false,
       ask: (x, y) => this.#posing.snapped(start, ask(x, y)),
     };
     this.#posing.grab();
   }
 
   #move(event: PointerEvent): void {
-    if (this.#drag) {
-      if (event.pointerId === this.#drag.pointer)
-        this.#posing.wish(this.#posing.selected, this.#drag.ask(event.clientX, event.clientY));
-    } else if (event.pointerType === "mouse" && event.buttons === 0) {
-      this.#look(event);
+    const { clientX: x, clientY: y } = event;
+    const drag = this.#drag;
+    if (!drag) {
+      if (event.pointerType === "mouse" && event.buttons === 0) this.#look(event);
+      return;
     }
+    if (event.pointerId !== drag.pointer) return;
+    drag.moved ||= Math.hypot(x - drag.x, y - drag.y) >= LEAST_WAY;
+    if (drag.moved) this.#posing.wish(drag.handle, drag.ask(x, y));
   }
 
+  /** The end, also of a drag that was cancelled meanwhile. */
   #up(event: PointerEvent): void {
     if (event.pointerId !== this.#drag?.pointer) return;
+    const { moved } = this.#drag;
     this.#end();
-    this.#posing.commit();
+    if (event.pointerType !== "mouse") this.#activate(null); // nothing hovers
+    if (moved) this.#posing.commit();
+    else this.#posing.release();
   }
 
   #end(): void {
-    if (!this.#drag) return;
     this.#drag = null;
     this.#posing.stage.controls.enabled = true;
   }

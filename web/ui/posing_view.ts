@@ -98,7 +98,6 @@ export async function posingView(
       (moved) => hud.polished(moved),
       (why) => hud.remark(`Not polished: ${why.charAt(0).toLowerCase()}${why.slice(1)}`),
     );
-  posing.onCancelled = () => gizmo.cancel();
   posing.onSolved = (report) => {
     hud.remark("");
     hud.solved(report);
@@ -148,7 +147,10 @@ export async function posingView(
     hud.frame(seconds);
     readout.advance();
   };
-  stage.restored = () => surfaces[0].refresh();
+  stage.restored = () => {
+    surfaces[0].refresh();
+    ghosts.refresh();
+  };
   stage.afterFrame = () => {
     if (posing.isOnTheWay || polishing?.isOnTheWay || timeline.isPlaying) stage.draw();
   };

@@ -5,7 +5,7 @@ import { surfaceFragment, surfaceVertex, type Part, type SurfaceUniforms } from 
 
 const CLAY_ROUGHNESS = 0.58;
 const EDGE = new Color("#10141c");
-const EDGE_OPACITY = 0.22;
+const EDGE_OPACITY = 0.3;
 
 /** What differs between materials in the studio's light. */
 export interface Looks {

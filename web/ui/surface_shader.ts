@@ -1,4 +1,4 @@
-import { LIGHTING, SCREEN, type Texture, type Uniform } from "../render/index.ts";
+import { LIGHTING, ON_SCREEN, SCREEN, type Texture, type Uniform } from "../render/index.ts";
 
 /** What all materials of a surface read. */
 export type SurfaceUniforms = {
@@ -27,10 +27,6 @@ export type SurfaceUniforms = {
 export type Part = "COLORS" | "RAMPS" | "POINTS" | "CREASED" | "PICTURE" | "EDGES";
 
 const VERTEX = `
-precision highp float;
-precision highp int;
-precision highp sampler2D;
-precision highp isampler2D;
 uniform mat4 model, view, projection;
 uniform sampler2D shownPositions, shownNormals, shownStrains, shownOcclusion;
 uniform int shownWidth, shownColors;
@@ -58,6 +54,7 @@ in int ownVertex;
 in ivec2 ownRing;
 uniform isampler2D ownPairs;
 #endif
+${ON_SCREEN}
 ivec2 cellOf(int vertex) { return ivec2(vertex % shownWidth, vertex / shownWidth); }
 vec3 placeOf(int vertex) { return texelFetch(shownPositions, cellOf(vertex), 0).xyz; }
 // from pale sand by coral to plum: lightness falls all the way, so it reads without colours as well
@@ -96,9 +93,10 @@ void main() {
 #ifdef PICTURE
   corner = uv;
 #endif
-  gl_Position = projection * view * vec4(place, 1.0);
 #ifdef EDGES
-  gl_Position.z -= nearer * gl_Position.w;
+  gl_Position = projected(view, projection, place, nearer);
+#else
+  gl_Position = projection * view * vec4(place, 1.0);
 #endif
 }`;
 

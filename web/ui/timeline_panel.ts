@@ -172,7 +172,8 @@ export class TimelinePanel<State> {
     const isNew = keys.length > 0 && this.#timeline.find(this.#time) < 0 && this.#time > end;
     const time = keys.length === 0 ? 0 : isNew || this.#time < end ? this.#time : end + GAP;
     const state = this.#animated.state();
-    this.#pictures.set(state, this.#picture());
+    const picture = this.#picture();
+    if (picture) this.#pictures.set(state, picture);
     this.#time = time;
     this.#take(this.#timeline.with(time, state));
   }
@@ -217,7 +218,9 @@ export class TimelinePanel<State> {
     this.#animated.ghosts([before, after].filter((key) => key !== undefined).map(({ state }) => state));
   }
 
-  #picture(): string {
+  /** A small picture of the stage; null while the graphics are lost. */
+  #picture(): string | null {
+    if (this.#stage.renderer.graphics.isLost) return null;
     const show = this.#animated.bare();
     try {
       return drawAt(this.#stage, PICTURE, null, (canvas) => canvas.toDataURL());

@@ -65,7 +65,6 @@ export async function shownPosing(
     scene.follow();
     shown.onSolved({ handles: shown.handles, milliseconds });
   };
-  posing.onCancelled = () => scene.gizmo.cancel();
   stage.beforeFrame = (seconds) => {
     scene.gizmo.update();
     if (posing.isDragging) playing.isOn = false;
