@@ -1,10 +1,12 @@
 import { defineConfig } from "vite";
 
 import { core } from "./vite.core.ts";
+import { threeSources } from "./vite.three.ts";
 
 // The file of the npm package.
 export default defineConfig({
   plugins: [core()],
+  resolve: { alias: [threeSources] },
   build: {
     target: "es2022",
     emptyOutDir: false,

@@ -18,7 +18,7 @@ build_page = tool("build_page")
 
 def test_the_page_is_of_the_present_sources() -> None:
     assert build_page.is_current(), "web/ changed; run: python tools/build_page.py"
-    assert len(page_html().encode()) < 550_000, "page and core"
+    assert len(page_html().encode()) < 500_000, "page and core"
 
 
 def test_a_package_without_its_page_is_refused(
