@@ -124,7 +124,7 @@ function visibleMeshes(scene: Object3D): Mesh[] {
   return found;
 }
 
-/** What is opaque, then what is transparent from far to near; `renderOrder` comes first. */
+/** What is opaque, then what is transparent from far to near; in each of both `renderOrder` comes first. */
 function inOrder(meshes: readonly Mesh[], camera: PerspectiveCamera): Mesh[] {
   const place = new Vector3();
   const depths = new Map(

@@ -8,9 +8,9 @@ import { quaternionOf, rotationOf } from "./rotations.ts";
 
 /** Pixels per radian that a ring is taken to move at least: where it runs towards the camera it seems to stand still. */
 const LEAST_PIXELS = 30;
-/** The pointer is followed in the plane of a ring or square whose axis has at least this cosine with the view. */
+/** The pointer is followed in the plane of a ring whose axis has at least this cosine with the view. */
 const LEAST_ACROSS = 0.3;
-/** How far a square is dragged at most, in diagonals: near the horizon the pointer is as far as one likes. */
+/** How far arrows and squares are dragged at most, in diagonals: near the horizon the pointer is infinitely far. */
 const FARTHEST = 3;
 
 /** The motion that a handle is asked for while the pointer is at a point of the window. */
@@ -27,7 +27,10 @@ export function dragOf(frame: GizmoFrame, part: GizmoPart, start: Motion, x: num
 function alongAxis(frame: GizmoFrame, axis: Vector3, start: Motion, x: number, y: number): Drag {
   const place = (x: number, y: number) => nearestOnAxis(rayAt(frame.stage, x, y), frame.middle, axis);
   const from = place(x, y);
-  return (x, y) => shifted(frame, start, axis.clone().multiplyScalar(place(x, y) - from));
+  return (x, y) => {
+    const way = Math.min(Math.max(place(x, y) - from, -FARTHEST), FARTHEST);
+    return shifted(frame, start, axis.clone().multiplyScalar(way));
+  };
 }
 
 function acrossAxis(frame: GizmoFrame, axis: Vector3, start: Motion, x: number, y: number): Drag {
