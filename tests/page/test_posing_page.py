@@ -85,10 +85,6 @@ def test_a_cubature_is_dragged(
     assert_shown(cubature_model, page)
 
 
-def badge(page: Page) -> str:
-    return page.text(".badge")
-
-
 @pytest.fixture(scope="module")
 def calibrated(posing_model: PosingModel) -> PosingModel:
     return calibrate(posing_model, samples=12, threads=1)
@@ -120,7 +116,9 @@ def test_the_badge_shows_the_error_of_a_calibrated_model(
     assert found["relative"] == pytest.approx(expected.relative, rel=1e-2)
     assert found["upper"] == pytest.approx(expected.upper_relative, rel=1e-2)
     level = "good" if found["relative"] <= 0.01 else "rough"
-    assert badge(page) == f"{level} {100 * found['relative']:.2g} %"
+    # on a busy machine the badge may still show the middle of the drag
+    text = f"{level} {100 * found['relative']:.2g} %"
+    page.wait(f"document.querySelector('.badge').innerText === '{text}'")
     title = page.page.locator(".badge").get_attribute("title")
     assert f"below {100 * found['upper']:.2g} % with 90 % confidence" in title
     page.page.get_by_role("button", name="Reset", exact=True).click()
