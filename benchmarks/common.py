@@ -171,6 +171,17 @@ def drag(
     return np.array(solve), np.array(frame)
 
 
+def jumps(model: ss.PosingModel | ss.InterpolationModel, parameters: np.ndarray) -> np.ndarray:
+    """Milliseconds of solves from rest, each after all vertices were read."""
+    session = model.session()
+    milliseconds = []
+    for w in parameters:
+        session.reset()
+        _ = session.vertices
+        milliseconds.append(1e3 * session.set_parameters(w).seconds)
+    return np.array(milliseconds)
+
+
 def best_of(repeats: int, work: Callable[[], Any]) -> float:
     """The shortest time of work(), in seconds."""
     seconds = []

@@ -36,7 +36,7 @@ MOST_BYTES = 500_000
 def sources() -> list[Path]:
     """All files from which the page is built."""
     configs = ["package.json", "package-lock.json", "tsconfig.json"]
-    top = ["index.html", *configs, "vite.config.ts", "vite.core.ts", "vite.three.ts"]
+    top = ["index.html", *configs, *(path.name for path in WEB.glob("vite.*.ts"))]
     engine = [*(WEB / "engine").glob("*.ts"), *(WEB / "engine" / "files").glob("*.ts")]
     parts = [*engine, *(WEB / "render").glob("*.ts"), *(WEB / "ui").glob("*.*")]
     return sorted([*(WEB / name for name in top), WEB / "generated" / "core.wasm", *parts])

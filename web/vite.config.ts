@@ -2,6 +2,7 @@ import type { Plugin } from "vite";
 import { defineConfig } from "vite";
 
 import { core } from "./vite.core.ts";
+import { notices } from "./vite.notices.ts";
 import { threeSources } from "./vite.three.ts";
 
 /** Puts the script and the style into the page, so that it is one file that opens from a disk. */
@@ -37,7 +38,7 @@ function oneFile(): Plugin {
 }
 
 export default defineConfig({
-  plugins: [core(), oneFile()],
+  plugins: [core(), notices(), oneFile()],
   resolve: { alias: [threeSources] },
   build: {
     target: "es2022",

@@ -1,11 +1,12 @@
 import { defineConfig } from "vite";
 
 import { core } from "./vite.core.ts";
+import { notices } from "./vite.notices.ts";
 import { threeSources } from "./vite.three.ts";
 
 // The file of the npm package.
 export default defineConfig({
-  plugins: [core()],
+  plugins: [core(), notices()],
   resolve: { alias: [threeSources] },
   build: {
     target: "es2022",

@@ -29,6 +29,13 @@ def test_a_package_without_its_page_is_refused(
         page_file.page_html.__wrapped__()
 
 
+def test_the_page_has_the_licences_of_what_it_contains() -> None:
+    page = page_html()
+    for author in ("three.js authors", "Matt DesLauriers"):
+        assert re.search(rf"Copyright .*{author}", page)
+    assert page.count("Permission is hereby granted") == 2
+
+
 def test_the_page_asks_for_nothing() -> None:
     page = page_html()
     assert not re.search(r'<(script|link|img|iframe)[^>]*\s(src|href)="(?!data:)', page)

@@ -32,6 +32,7 @@ def test_the_script_is_small_and_needs_nothing_else(package: Path) -> None:
     text = script.read_bytes()
     assert len(gzip.compress(text, 9)) <= 150_000
     assert re.search(rb"""\b(?:from|import)\s*["']""", text) is None
+    assert "2010-2026 three.js authors" in text.decode(), "as its licence asks for"
     about = json.loads((package / "package.json").read_text(encoding="utf-8"))
     assert not [key for key in about if key.lower().endswith("dependencies")]
 
