@@ -126,23 +126,52 @@ PIXELS = """(() => {
 })()"""
 
 
+def lose(page: Page) -> None:
+    page.run(f"{LOSE}; losing.loseContext(); null")
+    page.wait("snapspace.stage.renderer.gl.isContextLost()")
+
+
+def give_back(page: Page) -> None:
+    page.run("losing.restoreContext(); null")
+    page.wait("!snapspace.stage.renderer.gl.isContextLost()")
+    page.settle()
+
+
 def test_lost_graphics_are_drawn_again(
     posing_model: PosingModel, posing_page: Path, opened: OpenPage
 ) -> None:
     page = opened(posing_page.as_uri(), sharp=True)
     page.drag(page.run("snapspace.handle(1)"), 40, -30)
     before = np.array(page.run(PIXELS))
-    page.run(f"{LOSE}; losing.loseContext(); null")
-    page.wait("snapspace.stage.renderer.gl.isContextLost()")
+    lose(page)
     key(page, "ArrowUp")  # a solve while nothing can be drawn
     key(page, "Control+z")
-    page.run("losing.restoreContext(); null")
-    page.wait("!snapspace.stage.renderer.gl.isContextLost()")
-    page.settle()
+    give_back(page)
     assert_shown(posing_model, page)
     after = np.array(page.run(PIXELS))
     assert np.count_nonzero(before) > 100
     assert np.mean(np.abs(after - before) > 40) < 0.01, "the same picture"
+
+
+def test_ghosts_come_back_with_the_graphics_and_exports_wait(
+    posing_page: Path, opened: OpenPage
+) -> None:
+    page = opened(posing_page.as_uri(), sharp=True)
+    lose(page)
+    page.page.get_by_role("button", name="OBJ", exact=True).click()
+    assert "no graphics" in page.text("#panel"), "not a file of zeros"
+    key(page, "k")  # a key without a picture
+    give_back(page)
+    page.drag(page.run("snapspace.handle(1)"), 60, -50)
+    key(page, "k")
+    assert page.run("snapspace.timeline.timeline.keys.length") == 2
+    page.page.get_by_role("button", name="Onion skin").click()
+    page.settle()
+    before = np.array(page.run(PIXELS))
+    lose(page)
+    give_back(page)
+    after = np.array(page.run(PIXELS))
+    assert np.mean(np.abs(after - before) > 20) < 0.005, "the same picture, with the ghosts"
 
 
 def test_undo_waits_for_the_end_of_a_stroke(bar_server: str, opened: OpenPage) -> None:
