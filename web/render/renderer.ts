@@ -12,7 +12,6 @@ export class Renderer {
   background: Color | null = null;
   readonly #studio: Studio;
   readonly #shadow: Shadow;
-  #pixelRatio = 1;
 
   /** Throws an Error in browsers without WebGL 2. */
   constructor(canvas: HTMLCanvasElement, studio: Studio) {
@@ -31,26 +30,23 @@ export class Renderer {
 
   /** Sets the size of the picture in pixels of the page, each of which has `pixelRatio` pixels along a side. */
   setSize(width: number, height: number, pixelRatio: number): void {
-    this.#pixelRatio = pixelRatio;
     const [across, down] = [width, height].map((side) => Math.floor(side * pixelRatio));
     // setting the size empties the canvas, also if it is the same
     if (this.canvas.width !== across) this.canvas.width = across;
     if (this.canvas.height !== down) this.canvas.height = down;
   }
 
-  get pixelRatio(): number {
-    return this.#pixelRatio;
-  }
-
-  /** Draws all meshes that are visible, with the key light's shadow. */
+  /** Draws all meshes that are visible, with the key light's shadow. Nothing is drawn while the context is lost. */
   render(scene: Object3D, camera: PerspectiveCamera): void {
-    const { width, height } = this.canvas;
-    this.#draw(scene, camera, width, height, true);
+    if (this.graphics.isLost) return; // all is drawn again once it is back
+    const meshes = this.#meshes(scene, camera);
+    this.#shadow.draw(meshes);
+    this.#draw(meshes, camera, this.canvas.width, this.canvas.height);
   }
 
   /** Draws them on a square in the lower left corner, with the shadow as it was, and empties the rest. */
   renderCorner(scene: Object3D, camera: PerspectiveCamera, side: number): void {
-    this.#draw(scene, camera, side, side, false);
+    if (!this.graphics.isLost) this.#draw(this.#meshes(scene, camera), camera, side, side);
   }
 
   /** Begins to make the programs and geometries of all meshes, also of those that are hidden: the first picture of them is
@@ -69,21 +65,17 @@ export class Renderer {
     this.graphics.dispose();
   }
 
-  #draw(
-    scene: Object3D,
-    camera: PerspectiveCamera,
-    width: number,
-    height: number,
-    isShadowNew: boolean,
-  ): void {
+  /** What is visible, after all has taken its place and the lights have followed the camera. */
+  #meshes(scene: Object3D, camera: PerspectiveCamera): Mesh[] {
+    scene.updateMatrixWorld();
+    camera.updateMatrixWorld();
+    this.#studio.follow(camera);
+    return visibleMeshes(scene);
+  }
+
+  #draw(meshes: readonly Mesh[], camera: PerspectiveCamera, width: number, height: number): void {
     const { graphics } = this;
     const { gl } = graphics;
-    if (graphics.isLost) return; // all is drawn again once it is back
-    scene.updateMatrixWorld();
-    if (camera.parent === null) camera.updateMatrixWorld();
-    this.#studio.follow(camera);
-    const meshes = visibleMeshes(scene);
-    if (isShadowNew) this.#shadow.draw(meshes);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, width, height);
     this.#clear();

@@ -54,20 +54,20 @@ export class Texture {
     return this.#height;
   }
 
-  /** What is in it: change it in place, or set it, and it is sent before the next use. */
+  /** What is in it. After it was changed in place call `changed`. */
   get data(): Pixels | null {
     return this.#data;
   }
 
-  set data(data: Pixels | null) {
-    this.#data = data;
+  /** Sends the data again before the next use. */
+  changed(): void {
     this.#isChanged = true;
   }
 
   /** Takes a picture with its size. */
   set picture(picture: ImageBitmap) {
-    [this.#width, this.#height] = [picture.width, picture.height];
-    this.data = picture;
+    [this.#width, this.#height, this.#data] = [picture.width, picture.height, picture];
+    this.changed();
   }
 
   /** Binds it, sends what has changed, and returns its unit. */

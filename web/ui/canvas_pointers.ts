@@ -1,3 +1,6 @@
+/** Pixels that the pointer moves before a press becomes a drag. */
+export const LEAST_WAY = 2;
+
 interface PointerActions {
   down(event: PointerEvent): void;
   move(event: PointerEvent): void;

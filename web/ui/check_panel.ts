@@ -1,7 +1,7 @@
 import { Color } from "three";
 
-import { flat, Geometry, Mesh } from "../render/index.ts";
 import type { Checked, SurfaceFinding } from "../engine/messages.ts";
+import { flat, Geometry, Mesh } from "../render/index.ts";
 import { h, section } from "./dom.ts";
 import type { Server } from "./server.ts";
 import type { Stage } from "./stage.ts";

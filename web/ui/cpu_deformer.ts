@@ -1,6 +1,6 @@
 import { reconstruct, vertexStrains, weightedNormals, type Rests, type ShapeSpace } from "../engine/index.ts";
 import { Texture } from "../render/index.ts";
-import { asTexels, fromTexels, textureSize, type Deformer } from "./deformer.ts";
+import { fromTexels, putRows, textureSize, type Deformer } from "./deformer.ts";
 
 /** Positions and normals on the processor, where the graphics cannot draw into float textures. */
 export class CpuDeformer implements Deformer {
@@ -42,13 +42,13 @@ export class CpuDeformer implements Deformer {
     if (share > 0)
       for (let i = 0; i < this.#shape.length; i++) this.#shape[i] += share * (this.#goal[i] - this.#shape[i]);
     weightedNormals(this.#shape, this.#faces, this.#normals);
-    put(this.#shape, this.positions);
-    put(this.#normals, this.normals);
+    putRows(this.#shape, this.positions);
+    putRows(this.#normals, this.normals);
     if (this.#weights && this.#rests) {
       const found = vertexStrains(this.#rests, this.#weights, this.#shape, this.#faces);
       const texels = this.strains.data as Float32Array;
       found.forEach((strain, vertex) => (texels[4 * vertex] = strain));
-      this.strains.data = texels;
+      this.strains.changed();
     }
   }
 
@@ -69,10 +69,4 @@ export class CpuDeformer implements Deformer {
     this.positions.dispose();
     this.normals.dispose();
   }
-}
-
-function put(rows: Float32Array, texture: Texture): void {
-  const texels = texture.data as Float32Array;
-  asTexels(rows, texels);
-  texture.data = texels;
 }

@@ -39,6 +39,12 @@ export function asTexels(rows: ArrayLike<number>, texels: Float32Array): void {
   }
 }
 
+/** Puts rows of 3 numbers into a texture of floats. */
+export function putRows(rows: ArrayLike<number>, texture: Texture): void {
+  asTexels(rows, texture.data as Float32Array);
+  texture.changed();
+}
+
 /** Texels of 4 as rows of 3 numbers. */
 export function fromTexels(texels: Float32Array, space: ShapeSpace): Float32Array<ArrayBuffer> {
   const rows = new Float32Array(3 * space.vertices);

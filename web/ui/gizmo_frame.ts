@@ -1,6 +1,6 @@
 import { Vector3, type Quaternion } from "three";
 
-import { inWindow, rayAt } from "./canvas_ray.ts";
+import { allInWindow, rayAt } from "./canvas_ray.ts";
 import { ARROW, BEHIND, RING, SQUARE, VIEW_RING, type GizmoPart } from "./gizmo_parts.ts";
 import type { Stage } from "./stage.ts";
 
@@ -46,12 +46,14 @@ export class GizmoFrame {
     const away = origin.clone().sub(this.middle).cross(direction).length();
     if (away < Math.min(DOT, MOST_OF_GIZMO * this.size)) return null;
     const usable = parts.filter((part) => part.mesh.visible);
-    const inside = usable.findLast((part) => part.kind === "square" && isInside(this.#square(part), x, y));
+    const inside = usable.findLast(
+      (part) => part.kind === "square" && isInside(this.#inWindow(this.#square(part)), x, y),
+    );
     if (inside) return inside;
     let [best, nearest]: [GizmoPart | null, number] = [null, isTouch ? REACH.touch : REACH.mouse];
     for (const part of usable) {
       if (part.kind === "square") continue;
-      const line = part.kind === "arrow" ? this.#arrow(part) : this.ring(part).map((p) => this.#pixel(p));
+      const line = this.#inWindow(part.kind === "arrow" ? this.#arrow(part) : this.ring(part));
       const away = distance(line, x, y);
       if (away < nearest) [best, nearest] = [part, away];
     }
@@ -76,18 +78,16 @@ export class GizmoFrame {
 
   /** The point of a ring that is nearest to a point of the window. */
   nearestOn(part: GizmoPart, x: number, y: number): Vector3 {
-    const away = (point: Vector3) => {
-      const [px, py] = this.#pixel(point);
-      return Math.hypot(px - x, py - y);
-    };
-    return this.ring(part).reduce((best, point) => (away(point) < away(best) ? point : best));
+    const points = this.ring(part);
+    const away = this.#inWindow(points).map(([px, py]) => Math.hypot(px - x, py - y));
+    return points[away.indexOf(Math.min(...away))];
   }
 
-  #arrow({ axis }: GizmoPart): Pixel[] {
-    return ARROW.map((share) => this.#pixel(this.#along(axis, share)));
+  #arrow({ axis }: GizmoPart): Vector3[] {
+    return ARROW.map((share) => this.#along(axis, share));
   }
 
-  #square({ axis }: GizmoPart): Pixel[] {
+  #square({ axis }: GizmoPart): Vector3[] {
     const [from, to] = SQUARE;
     const [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
     return (
@@ -97,15 +97,15 @@ export class GizmoFrame {
         [to, to],
         [from, to],
       ] as const
-    ).map(([a, b]) => this.#pixel(this.#along(u, a).addScaledVector(this.axes[v], b * this.size)));
+    ).map(([a, b]) => this.#along(u, a).addScaledVector(this.axes[v], b * this.size));
   }
 
   #along(axis: number, share: number): Vector3 {
     return this.middle.clone().addScaledVector(this.axes[axis], share * this.size);
   }
 
-  #pixel(place: Vector3): Pixel {
-    return inWindow(this.stage, place);
+  #inWindow(places: readonly Vector3[]): Pixel[] {
+    return allInWindow(this.stage, places);
   }
 }
 

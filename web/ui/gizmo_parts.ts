@@ -57,7 +57,7 @@ export class GizmoPart {
     const look = { isTransparent: true, depthTest: false, depthWrite: false };
     this.mesh = new Mesh(geometry, material({ vertex: PLACED, fragment: FRAGMENT, uniforms }, look));
     this.mesh.renderOrder = kind === "square" ? 6 : 7; // after the dots of handles
-    if (axis >= 0) this.mesh.quaternion.setFromUnitVectors(Y, UNITS[axis]);
+    if (kind === "arrow" || kind === "ring") this.mesh.quaternion.setFromUnitVectors(Y, UNITS[axis]);
     this.isActive = false;
   }
 
@@ -88,7 +88,6 @@ export class GizmoParts {
       ...UNITS.map((_, axis) => new GizmoPart("ring", axis, ring)),
       new GizmoPart("view", -1, view),
     ];
-    for (const { kind, mesh } of this.all) if (kind === "square") mesh.quaternion.identity();
     this.group.add(...this.all.map(({ mesh }) => mesh));
     this.group.name = "gizmo";
     this.group.visible = false;

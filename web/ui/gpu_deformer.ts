@@ -1,6 +1,6 @@
 import type { Rests, ShapeSpace } from "../engine/index.ts";
 import { Texture, type Graphics, type Target, type Uniform } from "../render/index.ts";
-import { asTexels, fromTexels, textureSize, type Deformer } from "./deformer.ts";
+import { fromTexels, putRows, textureSize, type Deformer } from "./deformer.ts";
 import { GpuStrains } from "./gpu_strains.ts";
 import { floatTarget, integers, Pass, runPasses } from "./gpu_pass.ts";
 import { rings } from "./rings.ts";
@@ -111,9 +111,7 @@ export class GpuDeformer implements Deformer {
   }
 
   set goal(positions: Float32Array) {
-    const texels = this.#goal.data as Float32Array;
-    asTexels(positions, texels);
-    this.#goal.data = texels;
+    putRows(positions, this.#goal);
   }
 
   update(coefficients: ArrayLike<number>, share = 0): void {
@@ -164,8 +162,9 @@ export class GpuDeformer implements Deformer {
 
 function floats(rows: Float32Array, width: number, height: number): Texture {
   const data = new Float32Array(4 * width * height);
-  asTexels(rows, data);
-  return new Texture({ format: "rgba32f", width, height, data });
+  const texture = new Texture({ format: "rgba32f", width, height, data });
+  putRows(rows, texture);
+  return texture;
 }
 
 /** Modes as layers of an array of textures, without a copy in floats. */

@@ -1,7 +1,7 @@
 import { Matrix4, Plane, Quaternion, Vector3 } from "three";
 
 import type { Motion } from "../engine/index.ts";
-import { listenToPointers } from "./canvas_pointers.ts";
+import { LEAST_WAY, listenToPointers } from "./canvas_pointers.ts";
 import { inWindow, rayAt } from "./canvas_ray.ts";
 import type { Gizmo } from "./posing_gizmo.ts";
 import type { Posing } from "./posing.ts";
@@ -112,7 +112,7 @@ export class HandleDrag {
     }
     if (event.pointerId !== drag.pointer) return;
     const [dx, dy] = [event.clientX - drag.x, event.clientY - drag.y];
-    if (!drag.moved && Math.hypot(dx, dy) < 2) return;
+    if (!drag.moved && Math.hypot(dx, dy) < LEAST_WAY) return;
     drag.moved = true;
     const asked = drag.turn ? this.#turned(drag, dx, dy) : this.#shifted(drag, event);
     this.#posing.wish(drag.handle, this.#posing.snapped(drag.start, asked));

@@ -1,6 +1,6 @@
 import { Quaternion, Vector3 } from "three";
 
-import { listenToPointers } from "./canvas_pointers.ts";
+import { LEAST_WAY, listenToPointers } from "./canvas_pointers.ts";
 import { dragOf, type Drag } from "./gizmo_drag.ts";
 import { GizmoFrame } from "./gizmo_frame.ts";
 import { GizmoParts, type GizmoPart } from "./gizmo_parts.ts";
@@ -9,8 +9,6 @@ import { quaternionOf } from "./rotations.ts";
 
 /** The length of its arrows as a share of half the height of the picture. */
 const SIZE = 0.17;
-/** Pixels before a press becomes a drag. */
-const LEAST_WAY = 2;
 
 /** Arrows or rings at the selected handle, along the axes of the model or of the handle, in their colours. */
 export class Gizmo {
@@ -39,7 +37,7 @@ export class Gizmo {
     return this.#active !== null;
   }
 
-  /** Follows the selected handle and the camera, before each picture. */
+  /** Follows the selected handle and the camera: before each picture, and after another selection. */
   update(): void {
     const { selected, session, mode, stage, isLocal } = this.#posing;
     const { group } = this.#parts;

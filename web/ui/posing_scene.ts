@@ -60,9 +60,8 @@ export class PosingScene {
     return this.#surfaceOf(this.posing.stage, this.#model);
   }
 
-  /** Puts gizmo and marks where the handles are. */
+  /** Puts marks where the handles are. The gizmo also follows the camera, before each picture. */
   follow(): void {
-    this.gizmo.update();
     this.#marks.update();
   }
 

@@ -129,6 +129,7 @@ export async function posingView(
   );
   posing.onChange = () => {
     scene.follow();
+    gizmo.update();
     readout.now();
     pulls.show(posing.mode === "pull");
     if (!posing.isDragging) keepHash(() => poseHash(motions()));
@@ -137,11 +138,11 @@ export async function posingView(
   if (start.every((motion) => motion !== undefined)) posing.begin(start);
   else posing.onChange();
   stage.beforeFrame = (seconds) => {
-    gizmo.update();
     if (posing.isDragging) timeline.play(false);
     timeline.advance(seconds);
     posing.solveWishes();
     posing.advance(seconds);
+    gizmo.update();
     polishing?.advance();
     look.legend.look();
     hud.frame(seconds);

@@ -59,6 +59,7 @@ export async function shownPosing(
   let update = () => {};
   posing.onChange = () => {
     scene.follow();
+    scene.gizmo.update();
     update();
   };
   posing.onSolved = ({ milliseconds }) => {
@@ -66,11 +67,11 @@ export async function shownPosing(
     shown.onSolved({ handles: shown.handles, milliseconds });
   };
   stage.beforeFrame = (seconds) => {
-    scene.gizmo.update();
     if (posing.isDragging) playing.isOn = false;
     playing.advance(seconds);
     posing.solveWishes();
     posing.advance(seconds);
+    scene.gizmo.update();
     update();
   };
   stage.afterFrame = () => {
