@@ -59,7 +59,7 @@ def figures(name: str, args: argparse.Namespace) -> dict[str, Any]:
         "said": built.step.error,
         "projection": float(np.median(found.projection_error)),
         "warm ms": float(np.median(warm)),
-        "jump ms": float(np.median(common.jumps(built.model, found.reference.parameters))),
+        "jump ms": common.solutions(built.model, found.reference)[1],
         "first s": first.seconds,
         "first median": float(np.median(first_errors)),
         "s": seconds,

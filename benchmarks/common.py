@@ -94,14 +94,27 @@ def projection_errors(subspace: ss.AffineSubspace, reference: ss.Snapshots) -> n
 
 def reduced_errors(model: ss.PosingModel, reference: ss.Snapshots) -> np.ndarray:
     """Relative M-norm errors of reduced solutions from rest."""
-    session, misses = model.session(), []
-    for w, row in zip(reference.parameters, reference.displacements, strict=True):
+    shapes, _ = solutions(model, reference)
+    truth = reference.displacements.array()
+    errors: np.ndarray = mass_norms(model.subspace.mass, shapes - truth)
+    return errors / mass_norms(model.subspace.mass, truth)
+
+
+def solutions(
+    model: ss.PosingModel, reference: ss.Snapshots, *, frames: int = 1
+) -> tuple[np.ndarray, float]:
+    """Displacements (k, 3n) of reduced solves from rest, and the median ms of their last frames.
+
+    With several frames the handles move along a straight line.
+    """
+    session, shapes, seconds = model.session(), [], []
+    for w in reference.parameters:
         session.reset()
-        session.set_parameters(w)
-        misses.append(session.vertices.reshape(-1) - reference.problem.base - row)
-    size = mass_norms(model.subspace.mass, reference.displacements.array())
-    errors: np.ndarray = mass_norms(model.subspace.mass, np.array(misses)) / size
-    return errors
+        for frame in range(1, frames + 1):
+            report = session.set_parameters(w * frame / frames)
+        seconds.append(report.seconds)
+        shapes.append(session.vertices.reshape(-1) - model.problem.base)
+    return np.array(shapes), 1e3 * float(np.median(seconds))
 
 
 def show(
@@ -169,17 +182,6 @@ def drag(
         frame.append(1e3 * (time.perf_counter() - begin))
         solve.append(1e3 * report.seconds)
     return np.array(solve), np.array(frame)
-
-
-def jumps(model: ss.PosingModel | ss.InterpolationModel, parameters: np.ndarray) -> np.ndarray:
-    """Milliseconds of solves from rest, each after all vertices were read."""
-    session = model.session()
-    milliseconds = []
-    for w in parameters:
-        session.reset()
-        _ = session.vertices
-        milliseconds.append(1e3 * session.set_parameters(w).seconds)
-    return np.array(milliseconds)
 
 
 def best_of(repeats: int, work: Callable[[], Any]) -> float:

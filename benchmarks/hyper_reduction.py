@@ -88,31 +88,14 @@ def table_of(name: str, args: argparse.Namespace) -> list[dict[str, Any]]:
     return rows
 
 
-def solutions(
-    model: ss.PosingModel, reference: ss.Snapshots, *, frames: int = 1
-) -> tuple[np.ndarray, float]:
-    """Displacements (k, 3n) of reduced solves from rest, and the median ms of their last frames.
-
-    With several frames the handles move along a straight line.
-    """
-    session, shapes, seconds = model.session(), [], []
-    for w in reference.parameters:
-        session.reset()
-        for frame in range(1, frames + 1):
-            report = session.set_parameters(w * frame / frames)
-        seconds.append(report.seconds)
-        shapes.append(session.vertices.reshape(-1) - model.problem.base)
-    return np.array(shapes), 1e3 * float(np.median(seconds))
-
-
 def row_of(
     model: ss.PosingModel, reference: ss.Snapshots, energy: str, training: float, *, seed: int
 ) -> dict[str, Any]:
     """The figures of one model, in the order of COLUMNS."""
     mass, truth = model.subspace.mass, reference.displacements.array()
-    shapes, cold = solutions(model, reference)
+    shapes, cold = common.solutions(model, reference)
     errors = relative(mass, shapes, truth)
-    dragged = relative(mass, solutions(model, reference, frames=DRAG)[0], truth)
+    dragged = relative(mass, common.solutions(model, reference, frames=DRAG)[0], truth)
     session, evaluations, calls = model.session(), [], []
     for w in common.path(model.problem, frames=FRAMES, seed=seed + 1)[:COUNTED]:
         begin = time.perf_counter()
