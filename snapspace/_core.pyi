@@ -183,7 +183,7 @@ class MassProducts:
     def multiply(self, rows: Sequence[NDArray[numpy.float64]], offset: NDArray[numpy.float64] | None, others: Sequence[NDArray[numpy.float64]], *, threads: int) -> NDArray[numpy.float64]:
         """Products (i, j) of rows[i] + offset with M (x) I3 times others[j]."""
 
-def combine_rows(rows: Sequence[NDArray[numpy.float64]], size: int, weights: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+def combine_rows(rows: Sequence[NDArray[numpy.float64]], size: int, weights: NDArray[numpy.float64], *, threads: int) -> NDArray[numpy.float64]:
     """Combinations (j, size) of i rows (size,): weights (j, i) times rows."""
 
 class SolveStatus(enum.Enum):

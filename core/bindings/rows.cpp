@@ -67,15 +67,15 @@ void bind_rows(nb::module_& m) {
            "Products (i, j) of rows[i] + offset with M (x) I3 times others[j].");
   m.def(
       "combine_rows",
-      [](std::vector<VectorIn> rows, std::size_t size, MatrixIn weights) {
+      [](std::vector<VectorIn> rows, std::size_t size, MatrixIn weights, int threads) {
         const auto from = addresses(rows, size);
         require(weights.shape(1) == from.size(), "one column of weights per row is needed");
         DoublesOut combined = new_array<double>({weights.shape(0), size});
         const ReleasedGil released;
-        combine_rows(from, size, weights.data(), weights.shape(0), combined.data());
+        combine_rows(from, size, weights.data(), weights.shape(0), combined.data(), threads);
         return combined;
       },
-      nb::arg("rows"), nb::arg("size"), nb::arg("weights"),
+      nb::arg("rows"), nb::arg("size"), nb::arg("weights"), nb::kw_only(), nb::arg("threads"),
       "Combinations (j, size) of i rows (size,): weights (j, i) times rows.");
 }
 

@@ -5,11 +5,12 @@
 namespace snapspace {
 
 /// combined(j) = sum_i weights(j, i) rows[i] for rows that are separate arrays, in memory or in
-/// mapped files. Zero weights cost nothing, and no sum depends on the others.
+/// mapped files. Rows without a weight are not read. If all others are finite, no sum
+/// depends on the others, nor on the number of threads.
 /// @param size      length of a row
 /// @param weights   (combinations, rows)
 /// @param combined  (combinations, size)
 void combine_rows(std::span<const double* const> rows, std::size_t size, const double* weights,
-                  std::size_t combinations, double* combined);
+                  std::size_t combinations, double* combined, int threads);
 
 }  // namespace snapspace

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,9 +93,12 @@ class GrowingSamples:
 
     @property
     def trained(self) -> Snapshots:
-        """The usable samples that are not held out."""
-        solved = self.snapshots.select(self._masks()[0])
-        return solved if self._given is None else solved.joined(self._given)
+        """The usable samples that are not held out, with their Gram matrix."""
+        which = self._masks()[0]
+        solved = self.snapshots.select(which)
+        if self._given is not None:
+            return solved.joined(self._given)
+        return replace(solved, gram=self._gram.select(which))
 
     @property
     def unseen(self) -> Snapshots:

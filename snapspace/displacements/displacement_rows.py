@@ -118,9 +118,15 @@ class DisplacementRows(Sequence[FloatArray]):
         """
         return mass.multiply(self._rows, self._offset, list(others), threads=threads)
 
-    def combined(self, weights: FloatArray) -> FloatArray:
-        """Weights (j, k) times these rows: (j, 3n). A result does not depend on other weights."""
-        combined = core.combine_rows(self._rows, self.size, np.ascontiguousarray(weights))
+    def combined(self, weights: FloatArray, *, threads: int = 0) -> FloatArray:
+        """Weights (j, k) times these rows: (j, 3n). A result does not depend on other weights.
+
+        That holds if all rows with a weight are finite. Rows without one do not count.
+        threads : default all; the result is bitwise the same for any number
+        """
+        combined = core.combine_rows(
+            self._rows, self.size, np.ascontiguousarray(weights), threads=threads
+        )
         if self._offset is not None:
             combined += weights.sum(axis=1)[:, None] * self._offset
         return combined

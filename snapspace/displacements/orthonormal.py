@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cholesky, solve_triangular
@@ -29,16 +32,24 @@ def orthonormalise(directions: FloatArray, mass: csr_array) -> None:
     for _ in range(2):
         if _error(gram) <= 1e-13:
             return
-        factor = cholesky(gram)
-        for start in range(0, directions.shape[1], BLOCK):
-            block = directions[:, start : start + BLOCK]
-            block[:] = solve_triangular(factor, block, trans="T")
+        _divide(directions, cholesky(gram))
         gram = _gram(directions, mass)
     if _error(gram) > 1e-10:
         raise ValueError(
             f"pca: the basis is orthonormal only to {_error(gram):.1e}; the last directions are "
             "noise; choose a smaller dimension"
         )
+
+
+def _divide(directions: FloatArray, factor: FloatArray) -> None:
+    """Replaces the directions U by U R^-1, with an upper triangular factor R, in fixed blocks."""
+
+    def divide(start: int) -> None:
+        block = directions[:, start : start + BLOCK]
+        block[:] = solve_triangular(factor, block, trans="T", check_finite=False)
+
+    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+        list(pool.map(divide, range(0, directions.shape[1], BLOCK)))
 
 
 def _error(gram: FloatArray) -> float:

@@ -62,6 +62,13 @@ class SnapshotGram:
         twin._rows, twin._matrix = self._rows, self._matrix
         return twin
 
+    def select(self, which: ArrayLike) -> SnapshotGram:
+        """The products of the rows that a mask (k,) selects; they can grow on their own."""
+        some = SnapshotGram(self.mass)
+        places = np.flatnonzero(np.asarray(which, bool))
+        some._rows, some._matrix = self._rows.select(which), self._matrix[np.ix_(places, places)]
+        return some
+
     def add(self, rows: Iterable[FloatArray], *, threads: int = 0) -> None:
         """Appends displacements (3n,): their products with each other and with all earlier ones.
 

@@ -73,7 +73,16 @@ def test_a_combination_depends_on_no_other_and_on_no_row_without_weight() -> Non
     np.testing.assert_array_equal(alone[0], every[3])
     spoiled = ROWS.copy()
     spoiled[~used] = np.nan
-    np.testing.assert_array_equal(core.combine_rows(list(spoiled), 450, weights[3:4])[0], every[3])
+    clean = DisplacementRows(spoiled, ROWS.shape[1]).combined(weights[3:4])
+    np.testing.assert_array_equal(clean[0], every[3])
+
+
+def test_combinations_have_the_same_bits_on_any_threads() -> None:
+    """The rows are long enough for several parts."""
+    rows = DisplacementRows(RANDOM.standard_normal((9, 5000)), 5000)
+    weights = RANDOM.standard_normal((6, 9))
+    alone = rows.combined(weights, threads=1)
+    np.testing.assert_array_equal(rows.combined(weights, threads=3), alone)
 
 
 @pytest.mark.parametrize(
@@ -104,6 +113,6 @@ def test_nothing_is_read_beyond_an_array() -> None:
         with pytest.raises(ValueError, match=r"same length|must be \(3n,\)"):
             mass_products(MASS).multiply(rows, offset, others, threads=1)
     with pytest.raises(ValueError, match="same length"):
-        core.combine_rows([row, short], 450, np.ones((1, 2)))
+        core.combine_rows([row, short], 450, np.ones((1, 2)), threads=1)
     with pytest.raises(ValueError, match="one column of weights per row"):
-        core.combine_rows([row], 450, np.ones((1, 2)))
+        core.combine_rows([row], 450, np.ones((1, 2)), threads=1)

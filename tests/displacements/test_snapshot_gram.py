@@ -105,6 +105,16 @@ def test_a_sample_that_is_not_finite_spoils_no_other() -> None:
     assert not np.isfinite(matrix[3, 0])
 
 
+def test_selected_rows_have_the_products_of_these_rows_and_grow_alone() -> None:
+    mass, rows = MASSES["consistent"], displacements(9, SIZE)
+    every, which = gram(mass, rows[:7]), np.array([True, False, True, True, False, True, True])
+    some = every.select(which)
+    some.add(rows[7:])
+    again = gram(mass, np.vstack([rows[:7][which], rows[7:]]))
+    np.testing.assert_array_equal(some.matrix, again.matrix)
+    assert len(every) == 7
+
+
 def test_a_copy_grows_alone() -> None:
     mass, rows = MASSES["lumped"], displacements(8, SIZE)
     first = gram(mass, rows[:5])
