@@ -44,7 +44,7 @@ def main() -> None:
     parser.add_argument("--settling", type=float, help="settling, instead of a tolerance")
     parser.add_argument("--dimensions", type=int, nargs="+", default=[20, 40, 60, 120, 250])
     parser.add_argument(
-        "--tets", type=int, nargs="+", help="tets of cubatures; default: 8 d, at most 1000"
+        "--tets", type=int, nargs="+", help="tets of cubatures; default: that of reduce"
     )
     parser.add_argument("--exact-up-to", type=int, default=40, help="largest d of the quartic")
     parser.add_argument("--validate", type=int, default=30, help="number of held-out parameters")

@@ -167,7 +167,7 @@ def _sample(
     for q, w in zip(coordinates, parameters, strict=True):
         _solve(session, w)
         q[:] = session.q
-    frames = coordinates @ model.subspace.basis.T + (model.subspace.tau - problem.base)
+    frames = model.subspace.shapes(coordinates) - problem.base
     sizes = (coordinates**2).sum(axis=1)
     inputs = problem.inputs(parameters)
     _, gradients = problem.system.evaluate(frames, inputs, threads=threads or 0)

@@ -128,9 +128,6 @@ def accurate_model(
     its Hessians in the seed of the solver, and are solved more loosely, but not the held-out ones.
     There may then be more samples, see `predicted_most_samples`.
 
-    If all models with all samples miss the target, the last one is made again with more tets, see
-    `finer_tets`.
-
     Parameters
     ----------
     problem : PosingProblem or InterpolationProblem
@@ -145,7 +142,7 @@ def accurate_model(
     budget : float, optional
         Time limit in seconds. Samples that would probably exceed it are not solved; the first stage
         always is. With a budget, the result depends on the speed of the machine. Default: none; the
-        default of `most_samples` limits large meshes to half a minute on two cores.
+        default of `most_samples` limits large meshes to about a minute on two cores.
     seed : int, default 0
         Seed of the samples, see `GrowingSamples`.
     options, threads, progress, checkpoint, executor : as for `solve_snapshots`

@@ -12,9 +12,9 @@ from ..calibration import calibrate
 from ..interruptible import begin_abandonable
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
-from ..reduction import InterpolationModel, PosingModel, finer_tets, reduce
+from ..reduction import InterpolationModel, PosingModel, reduce
 from ..snapshots import Snapshots
-from ..subspace import AffineSubspace, snapshot_pca
+from ..subspace import snapshot_pca
 from .checks import check_budget, check_most, check_target
 from .dimension_search import DimensionSearch
 from .early_parts import make_early_parts
@@ -186,13 +186,10 @@ class ModelSearch:
                 yield self._taken(self._judged(count, self._first))
             else:
                 tries = DimensionSearch(self.samples, self._plan, self.target, ratio)
-                trial = None
                 for dimension in tries.dimensions(last=last):
                     trial = self._taken(self._try(count, dimension, tries))
                     tries.add(trial.step)
                     yield trial
-                if last and trial and (finer := self._finer(trial)):
-                    yield self._taken(finer)
                 if one_a_stage and not tries.steps and not last:
                     yield self._try(count, tries.most, tries)
             if last or (self.best is not None and self.best.step.error <= self.target):
@@ -236,19 +233,7 @@ class ModelSearch:
         self._model_seconds = time.perf_counter() - begin
         return trial
 
-    def _finer(self, last: Trial) -> Trial | None:
-        """The last model with more tets, if all models of the last stage miss the target."""
-        late = self._budget is not None and self.seconds + 2 * self._model_seconds > self._budget
-        if late or last.step.error <= self.target or last.model.cubature is None:
-            return None
-        if (tets := finer_tets(self.samples.problem, last.model.dimension)) is None:
-            return None
-        model = self._reduced(last.model.subspace, self.samples.trained, tets=tets)
-        return self._judged(last.step.samples, model, last.step.projection, tets)
-
-    def _judged(
-        self, count: int, model: Model, projection: float | None = None, tets: int | None = None
-    ) -> Trial:
+    def _judged(self, count: int, model: Model, projection: float | None = None) -> Trial:
         if projection is None:
             projection = self._plan.typical(self.samples.projection_errors_onto(model.subspace))
         return trial_of(
@@ -257,7 +242,6 @@ class ModelSearch:
             self._plan,
             samples=count,
             projection=projection,
-            tets=tets,
             threads=self._solving.threads,
         )
 
@@ -267,17 +251,12 @@ class ModelSearch:
         """Makes a model; `trained` are the snapshots that train a cubature, default all."""
         self._begins("subspace")
         self._finish_parts()
-        return self._reduced(snapshot_pca(snapshots, dimension=dimension), trained or snapshots)
-
-    def _reduced(
-        self, subspace: AffineSubspace, trained: Snapshots, *, tets: int | None = None
-    ) -> Model:
+        subspace = snapshot_pca(snapshots, dimension=dimension)
         self._begins("energy")
         return reduce(
             self.samples.problem,
             subspace,
-            snapshots=trained,
-            tets=tets,
+            snapshots=trained or snapshots,
             surface=self._surface,
             threads=self._solving.threads,
         )

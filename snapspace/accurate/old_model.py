@@ -59,7 +59,8 @@ class OldModel:
         They are the projections of its samples: a saved model has nothing else.
         """
         model = self._model
-        rows = model.training_coordinates[: self._most] @ model.subspace.basis.T
+        rows = model.subspace.shapes(model.training_coordinates[: self._most])
+        rows -= model.problem.base
         parameters = model.training_parameters[: self._most]
         return carry_over(_guessed(model.problem, parameters, rows), self._problem)
 

@@ -17,7 +17,6 @@ class Step:
     mean, ninth : mean and 90th percentile of the errors of the reduced solutions
     unseen, typical : names for the user: what was held out ("motions"), and which statistic `error`
         is ("median")
-    tets : how many tets the cubature was given, if they are more than by default, see `finer_tets`
     """
 
     samples: int
@@ -28,7 +27,6 @@ class Step:
     ninth: float
     unseen: str
     typical: str
-    tets: int | None = None
 
     @property
     def ratio(self) -> float:
@@ -36,8 +34,7 @@ class Step:
         return self.error / max(self.projection, 1e-12)
 
     def __str__(self) -> str:
-        more = "" if self.tets is None else f", {self.tets} tets"
         return (
-            f"{self.samples} samples, d = {self.dimension}{more}: error of unseen {self.unseen} "
+            f"{self.samples} samples, d = {self.dimension}: error of unseen {self.unseen} "
             f"{100 * self.error:.2g} %, of their projections {100 * self.projection:.2g} %"
         )

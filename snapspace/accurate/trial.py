@@ -29,7 +29,6 @@ def trial_of(
     *,
     samples: int,
     projection: float,
-    tets: int | None,
     threads: int | None,
 ) -> Trial:
     """Compares a model with unseen full solutions, which get lower energies if it finds them.
@@ -49,6 +48,5 @@ def trial_of(
         ninth=float(np.quantile(errors, 0.9)),
         unseen=plan.unseen_name,
         typical=plan.typical_name,
-        tets=tets,
     )
     return Trial(step, model, unseen)

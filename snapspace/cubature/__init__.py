@@ -12,7 +12,6 @@ from .train import (
     FEWEST_BLENDS,
     default_blended_tets,
     default_tets,
-    finer_tets,
     train_blended_cubature,
     train_cubature,
 )
@@ -30,7 +29,6 @@ __all__ = [
     "default_blended_tets",
     "default_tets",
     "element_count",
-    "finer_tets",
     "has_hinges",
     "has_stars",
     "train_blended_cubature",

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..problem import InterpolationProblem, PosingProblem, Problem
+from ..problem import InterpolationProblem, PosingProblem
 from ..subspace import AffineSubspace
 from .blended_stars import BlendedStars
 from .blended_sum import BlendedSum, blended_sum
@@ -24,6 +24,10 @@ FloatArray = NDArray[np.float64]
 #: Default number of tets per dimension. On the Dragon, d = 120, solutions are then as close to the
 #: full ones as those of the exact energy.
 TETS_PER_DIMENSION = 8
+#: The same where that gives more than so many tets. With 1000 tets for 195 and 256 dimensions
+#: errors are up to half larger on five of six bodies. With 8 d they are a tenth smaller, and frames
+#: take a quarter longer.
+MANY_TETS, FURTHER_TETS_PER_DIMENSION = 1000, 6.5
 #: The same for shells, whose membrane and bending each need their share. On Spot, 829 vertices, d =
 #: 120, thickness 3 % and 1.5 % of the diagonal, the cubature's part of live errors is 0.0008 and
 #: 0.0026; with 8 it is 0.0022 and 0.0068, with 16 it is 0.0002 and 0.0011. Surfaces that are as
@@ -34,12 +38,8 @@ ELEMENTS_PER_DIMENSION, MOST_ELEMENTS = 12, 1500
 #: Lion's mean errors are 0.015 and 0.009 (d = 40 and 60), with 8 d 0.015 and 0.010, in half the
 #: time a frame.
 TETS_PER_BLENDED_DIMENSION = 15
-#: Most tets by default: the time of an evaluation is proportional to their number.
-MOST_TETS = 1000
-#: The same where the error counts more than the time, see `finer_tets`.
-MOST_FINER_TETS = 2000
-#: Least ratio of these to the usual number: on the dog's head 1080 instead of 1000 change nothing.
-FINER = 1.2
+#: Most tets of blends by default: the time of an evaluation is proportional to their number.
+MOST_BLENDED_TETS = 1000
 #: Most motions to train on, and candidates per wanted tet. Errors on Dragon, Spot, Elephant,
 #: Armadillo, dog head and hand are the same as with 200 motions and twice as many candidates, which
 #: take twice as long.
@@ -57,27 +57,14 @@ PILOT_STEP = 8
 
 
 def default_tets(dimension: int, *, shell: bool = False) -> int:
-    """Default number of tets of a cubature: 8 d, but at most 1000 and those of the mesh.
+    """Default number of tets of a cubature: 8 d, beyond 1000 tets 6.5 d.
 
     For triangles and hinges of a shell it is 12 d, but at most 1500; see `has_hinges`.
     """
     if shell:
         return min(ELEMENTS_PER_DIMENSION * dimension, MOST_ELEMENTS)
-    return min(TETS_PER_DIMENSION * dimension, MOST_TETS)
-
-
-def finer_tets(problem: Problem, dimension: int) -> int | None:
-    """More tets than the default for many modes of a posed solid: 8 d, at most 2000; else None.
-
-    There must be a fifth more. Bodies that are soft between their handles need them. With 1000 tets
-    the median errors of a Lion (d = 207), a dog (245) and Spot (256), with handles at their tips,
-    are 0.0019, 0.0112 and 0.0162, and with 8 d tets 0.0014, 0.0062 and 0.0073. A frame then takes
-    1.6 to 2.6 times as long. On shells more elements do not help.
-    """
-    if not isinstance(problem, PosingProblem) or has_hinges(problem) or has_stars(problem):
-        return None
-    several = min(TETS_PER_DIMENSION * dimension, MOST_FINER_TETS, element_count(problem))
-    return several if several >= FINER * default_tets(dimension) else None
+    further = max(MANY_TETS, round(FURTHER_TETS_PER_DIMENSION * dimension))
+    return min(TETS_PER_DIMENSION * dimension, further)
 
 
 def default_blended_tets(dimension: int, *, stars: bool = False) -> int:
@@ -88,7 +75,7 @@ def default_blended_tets(dimension: int, *, stars: bool = False) -> int:
     are larger by half.
     """
     share = TETS_PER_DIMENSION if stars else TETS_PER_BLENDED_DIMENSION
-    return min(share * dimension, MOST_TETS)
+    return min(share * dimension, MOST_BLENDED_TETS)
 
 
 def train_cubature(

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from .. import _core as core
 from ..interruptible import run_interruptible
 from ..problem import Problem
-from ..reduction import ReducedModel, solved_sessions
+from ..reduction import ReducedModel, solved_shapes
 
 FloatArray = NDArray[np.float64]
 
@@ -110,8 +110,4 @@ def after_steps(
 
 def reduced_solutions(model: ReducedModel, parameters: FloatArray) -> FloatArray:
     """Displacements (k, 3n) from the problem's base; each solve starts from tau."""
-    offset = model.problem.base
-    shapes = np.empty((len(parameters), offset.size))
-    for row, session in zip(shapes, solved_sessions(model, parameters), strict=True):
-        row[:] = model.subspace.shape(session.q) - offset
-    return shapes
+    return solved_shapes(model, parameters) - model.problem.base

@@ -10,7 +10,6 @@ from ..cubature import (
     default_blended_tets,
     default_tets,
     element_count,
-    finer_tets,
     has_hinges,
     has_stars,
 )
@@ -36,7 +35,7 @@ from .quartic import (
 from .quartic_cost import LongWorkNotice, exact_seconds
 from .reduce import reduce
 from .reduced_model import ReducedModel
-from .solved_sessions import solved_sessions
+from .solved_sessions import solved_sessions, solved_shapes
 from .with_handles import with_handles
 
 __all__ = [
@@ -65,7 +64,6 @@ __all__ = [
     "element_count",
     "exact_seconds",
     "fewest_snapshots",
-    "finer_tets",
     "handle_quadric",
     "has_hinges",
     "has_stars",
@@ -74,6 +72,7 @@ __all__ = [
     "reduce",
     "reduced_quartic",
     "solved_sessions",
+    "solved_shapes",
     "training_tolerance",
     "with_handles",
 ]

@@ -94,9 +94,9 @@ def reduce(
         needs at least ten that are not at rest, or two for blending. It is as good as their forces:
         those of settled snapshots are far from equilibrium, see `SolverOptions`.
     tets : int, optional
-        The most tets that a cubature may choose, r. Default: 8 d for posing, 15 d for blending, but
-        at most 1000, or all tets if there are fewer. Of a shell they are triangles and hinges, by
-        default 12 d, but at most 1500; or the stars of vertices, 8 d.
+        The most tets that a cubature may choose, r, or all tets if there are fewer. Default: 8 d
+        for posing, beyond 1000 tets 6.5 d; 15 d for blending, but at most 1000. Of a shell they are
+        triangles and hinges, by default 12 d, but at most 1500; or the stars of vertices, 8 d.
     seed : int, default 0
         Seeds the random combinations of forces that a cubature is trained on.
     surface : EmbeddedSurface, optional

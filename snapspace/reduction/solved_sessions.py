@@ -1,4 +1,4 @@
-"""solved_sessions: reduced solutions at given parameters, one after the other."""
+"""solved_sessions, solved_shapes: reduced solutions at given parameters."""
 
 from __future__ import annotations
 
@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from .reduced_model import ReducedModel
 
+FloatArray = NDArray[np.float64]
 
-def solved_sessions(model: ReducedModel, parameters: NDArray[np.float64]) -> Iterator[Any]:
+
+def solved_sessions(model: ReducedModel, parameters: FloatArray) -> Iterator[Any]:
     """A session of the model, solved for each of the parameters (k, p) in turn.
 
     Each solve starts from tau, so that a solution does not depend on the others.
@@ -21,3 +23,11 @@ def solved_sessions(model: ReducedModel, parameters: NDArray[np.float64]) -> Ite
         session.reset()
         session.set_parameters(w)
         yield session
+
+
+def solved_shapes(model: ReducedModel, parameters: FloatArray) -> FloatArray:
+    """The shapes (k, 3n) of these solutions."""
+    coordinates = np.empty((len(parameters), model.dimension))
+    for q, session in zip(coordinates, solved_sessions(model, parameters), strict=True):
+        q[:] = session.q
+    return model.subspace.shapes(coordinates)

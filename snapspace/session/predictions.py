@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blas import single_threaded_blas
-from ..reduction import InterpolationModel, PosingModel, solved_sessions
+from ..reduction import InterpolationModel, PosingModel, solved_sessions, solved_shapes
 from ..snapshots import Predictions, positive_inverse
 
 FloatArray = NDArray[np.float64]
@@ -36,11 +36,11 @@ def predicted_solutions(
         tets, and motions that take fewer than 110, gain nothing by them.
     """
     basis, offset = model.subspace.basis, model.problem.base
-    size, d = basis.shape
-    displacements = np.empty((len(parameters), size))
-    inverses = np.empty((len(parameters), d, d) if hessians else (0, d, d))
+    if not hessians:
+        return Predictions(solved_shapes(model, parameters) - offset)
+    coordinates = np.empty((len(parameters), model.dimension))
+    inverses = np.empty((*coordinates.shape, model.dimension))
     for k, session in enumerate(solved_sessions(model, parameters)):
-        displacements[k] = model.subspace.shape(session.q) - offset
-        if hessians:
-            inverses[k] = positive_inverse(session.hessian()) / STIFFER
-    return Predictions(displacements, basis, inverses) if hessians else Predictions(displacements)
+        coordinates[k] = session.q
+        inverses[k] = positive_inverse(session.hessian()) / STIFFER
+    return Predictions(model.subspace.shapes(coordinates) - offset, basis, inverses)

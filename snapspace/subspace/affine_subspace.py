@@ -94,13 +94,26 @@ class AffineSubspace:
 
     def row_coordinates(self, displacements: DisplacementRows) -> FloatArray:
         """q = U^T M u, (k, d), of displacements u from tau, without a copy of all of them."""
-        directions = DisplacementRows(np.ascontiguousarray(self.basis.T), self.tau.size)
-        return displacements.mass_products(shared_mass(self.mass), directions)
+        return displacements.mass_products(shared_mass(self.mass), self._directions)
 
     def shape(self, q: ArrayLike) -> FloatArray:
         """tau + U q, (3n,), for coordinates (d,), or for the leading ones with the others zero."""
         coordinates = np.asarray(q, np.float64)
         return core.reconstruct(self.tau, self.basis.T[: len(coordinates)], coordinates)
+
+    def shapes(self, coordinates: FloatArray) -> FloatArray:
+        """tau + U q, (k, 3n), for coordinates (k, d).
+
+        A shape does not depend on the others, and equals that of `shape` to rounding. The basis is
+        read once, not once for each shape.
+        """
+        shapes = self._directions.combined(coordinates)
+        shapes += self.tau
+        return shapes
+
+    @property
+    def _directions(self) -> DisplacementRows:
+        return DisplacementRows(np.ascontiguousarray(self.basis.T), self.tau.size)
 
 
 def check_dimension(dimension: int, largest: int) -> None:

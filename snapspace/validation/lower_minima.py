@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..displacements import DisplacementRows
-from ..reduction import ReducedModel, solved_sessions
+from ..reduction import ReducedModel, solved_shapes
 from ..snapshots import SampleReport, Snapshots, SolverOptions, solve_snapshots
 from .frame_errors import unseen_errors
 from .unseen import reference_options
@@ -79,7 +79,7 @@ def _lower_minima(
     threshold = values - RESOLVED * np.abs(values)
     parameters, options = reference.parameters[apart], reference_options(model.problem)
     few = replace(options, max_iterations=STEPS)
-    begun = _solved_from(model, parameters, _frames(model, parameters), few, threads)
+    begun = _solved_from(model, parameters, solved_shapes(model, parameters), few, threads)
     below = np.array([report.value for report in begun.reports]) < threshold
     if not below.any():
         return {}
@@ -91,14 +91,6 @@ def _lower_minima(
         for i, limit, row, report in solved
         if report.converged and report.value < limit
     }
-
-
-def _frames(model: ReducedModel, parameters: FloatArray) -> FloatArray:
-    """Shapes (k, 3n) of reduced solves from tau."""
-    shapes = np.empty((len(parameters), model.problem.base.size))
-    for shape, session in zip(shapes, solved_sessions(model, parameters), strict=True):
-        shape[:] = model.subspace.shape(session.q)
-    return shapes
 
 
 def _solved_from(

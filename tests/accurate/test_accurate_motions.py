@@ -74,11 +74,14 @@ def test_large_meshes_get_fewer_samples_by_default(
     problem: PosingProblem, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert usual_most_samples(problem) == MOTIONS.most_samples
-    for most_vertices, allowed in (
-        (400 * len(problem.mesh.vertices), 400),
-        (FEWER_SAMPLES, FEWER_SAMPLES),
+    vertices = len(problem.mesh.vertices)
+    for most, enough, allowed in (
+        (800, 421, 800),  # the vertices of so many samples
+        (100, 421, 421),  # what the most dimensions need
+        (100, 300, 300),
+        (1, 1, FEWER_SAMPLES),
     ):
-        fewer = replace(MOTIONS, most_vertices=most_vertices)
+        fewer = replace(MOTIONS, most_vertices=most * vertices, enough_vertices=enough * vertices)
         monkeypatch.setattr("snapspace.accurate.plan.MOTIONS", fewer)
         assert usual_most_samples(problem) == allowed
 
@@ -87,7 +90,7 @@ def test_samples_of_large_bodies_are_solved_loosely_unless_they_judge(
     problem: PosingProblem, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     usual, judging = Solving().usual(problem), Solving().judging(problem)
-    monkeypatch.setattr("snapspace.accurate.plan.FEWER_SAMPLES", usual_most_samples(problem))
+    monkeypatch.setattr("snapspace.accurate.plan.LARGE", len(problem.mesh.vertices) - 1)
     assert usual.tolerance is not None
     assert Solving().usual(problem).tolerance == pytest.approx(10 * usual.tolerance)
     assert Solving().judging(problem) == judging

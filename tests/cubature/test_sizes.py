@@ -1,10 +1,11 @@
-"""How many equations and candidates a cubature is fitted with."""
+"""How many tets a cubature has, and how many equations and candidates it is fitted with."""
 
 from __future__ import annotations
 
 from hypothesis import given
 from hypothesis import strategies as st
 
+from snapspace.cubature import default_tets
 from snapspace.cubature.fit_tets import MOST_CANDIDATES, _candidate_count, _row_count
 
 
@@ -22,3 +23,11 @@ def test_weights_are_overdetermined_and_chosen_from_several(count: int, each: in
 def test_more_tets_never_have_fewer_equations_or_candidates(count: int) -> None:
     assert _row_count(count) <= _row_count(count + 1)
     assert _candidate_count(20, count) <= _candidate_count(20, count + 1)
+
+
+@given(st.integers(1, 400))
+def test_tets_grow_with_the_dimension_and_more_slowly_from_1000_on(dimension: int) -> None:
+    tets = default_tets(dimension)
+    assert tets == (8 * dimension if dimension <= 125 else max(1000, round(6.5 * dimension)))
+    assert default_tets(dimension + 1) >= tets
+    assert 6.5 * dimension - 0.5 <= tets <= 8 * dimension

@@ -100,6 +100,17 @@ def test_row_coordinates_are_the_coordinates(snapshots: Snapshots, tmp_path: Pat
     )
 
 
+def test_several_shapes_are_those_of_each_and_do_not_depend_on_the_others(
+    snapshots: Snapshots,
+) -> None:
+    subspace = snapshot_pca(snapshots, dimension=8)
+    coordinates = np.random.default_rng(0).standard_normal((7, 8))
+    shapes = subspace.shapes(coordinates)
+    each = [subspace.shape(q) for q in coordinates]
+    np.testing.assert_allclose(shapes, each, rtol=0, atol=1e-13 * np.abs(shapes).max())
+    np.testing.assert_array_equal(subspace.shapes(coordinates[4:5])[0], shapes[4])
+
+
 def test_memory_does_not_grow_with_the_samples(tmp_path: Path) -> None:
     """200 samples take 46 MB; only blocks and small matrices grow with their number."""
     problem = posing_bar(32, 16, 16)
