@@ -90,7 +90,7 @@ def test_samples_of_large_bodies_are_solved_loosely_unless_they_judge(
     problem: PosingProblem, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     usual, judging = Solving().usual(problem), Solving().judging(problem)
-    monkeypatch.setattr("snapspace.accurate.plan.LARGE", len(problem.mesh.vertices) - 1)
+    monkeypatch.setattr("snapspace.accurate.plan.FEWER_SAMPLES", usual_most_samples(problem))
     assert usual.tolerance is not None
     assert Solving().usual(problem).tolerance == pytest.approx(10 * usual.tolerance)
     assert Solving().judging(problem) == judging
