@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +19,8 @@ from .certificate import (
     scalar_diagonal,
 )
 from .mesh import mass_norm
-from .reduction import InterpolationModel, PosingModel
+from .reduction import InterpolationModel, PosingModel, solved_coordinates, solved_sessions
 from .sampling import Domain
-from .session import Session
 from .session.certify import movement
 from .snapshots import Progress, Snapshots, solve_snapshots
 from .validation import check_reference, reference_options
@@ -162,11 +161,7 @@ def _parameters(domain: Domain, count: int, *, seed: int, stream: int) -> FloatA
 def _sample(
     model: PosingModel | InterpolationModel, parameters: FloatArray, *, threads: int | None
 ) -> ResidualSample:
-    problem, session = model.problem, model.session()
-    coordinates = np.empty((len(parameters), model.dimension))
-    for q, w in zip(coordinates, parameters, strict=True):
-        _solve(session, w)
-        q[:] = session.q
+    problem, coordinates = model.problem, solved_coordinates(model, parameters)
     frames = model.subspace.shapes(coordinates) - problem.base
     sizes = (coordinates**2).sum(axis=1)
     inputs = problem.inputs(parameters)
@@ -186,11 +181,10 @@ def _measured(
     thorough: bool,
 ) -> tuple[FloatArray, FloatArray]:
     """Coordinates (k, d) of frames; true distances and the two indicators, (3, k)."""
-    problem, session = model.problem, model.session()
+    problem = model.problem
     coordinates, measured = np.empty((len(full), model.dimension)), np.empty((3, len(full)))
-    rows = zip(full.parameters, full.displacements, strict=True)
-    for column, (w, displacement) in enumerate(rows):
-        _solve(session, w)
+    frames = zip(solved_sessions(model, full.parameters), full.displacements, strict=True)
+    for column, (session, displacement) in enumerate(frames):
         solution = problem.base + displacement
         frame = problem.aligned(model.subspace.shape(session.q), solution)
         distance = mass_norm(model.subspace.mass, frame - solution) / root_mass
@@ -198,11 +192,6 @@ def _measured(
         moved = movement(session) if thorough else math.nan
         measured[:, column] = distance, session.residual(chosen), moved
     return coordinates, measured
-
-
-def _solve(session: Session[Any], parameters: FloatArray) -> None:
-    session.reset()
-    session.set_parameters(parameters)
 
 
 def _ratios(distances: FloatArray, indicators: FloatArray) -> FloatArray:

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..displacements import DisplacementRows
-from ..greedy import after_steps, reduced_solutions
+from ..greedy import after_steps
 from ..interruptible import begin_abandonable
 from ..problem import HandleBox, Handles, PosingProblem
-from ..reduction import PosingModel, handle_quadric
+from ..reduction import PosingModel, handle_quadric, reduced_solutions
 from ..snapshots import SampleReport, Snapshots, carry_over, lowest_start
 
 FloatArray = NDArray[np.float64]

@@ -58,9 +58,7 @@ class SnapshotGram:
 
     def copy(self) -> SnapshotGram:
         """A copy that can grow on its own."""
-        twin = SnapshotGram(self.mass)
-        twin._rows, twin._matrix = self._rows, self._matrix
-        return twin
+        return self.select(np.ones(len(self), bool))
 
     def select(self, which: ArrayLike) -> SnapshotGram:
         """The products of the rows that a mask (k,) selects; they can grow on their own."""

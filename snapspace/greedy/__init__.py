@@ -1,7 +1,7 @@
 """Greedy sampling: the next samples are those where the current model is worst."""
 
 from .batch_checkpoints import batch_checkpoint, finished_samples, greedy_key
-from .error_estimates import after_steps, estimated_errors, reduced_solutions
+from .error_estimates import after_steps, estimated_errors
 from .greedy_snapshots import BATCH, CANDIDATES, check_target, greedy_snapshots
 
 __all__ = [
@@ -14,5 +14,4 @@ __all__ = [
     "finished_samples",
     "greedy_key",
     "greedy_snapshots",
-    "reduced_solutions",
 ]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from .. import _core as core
 from ..interruptible import run_interruptible
 from ..problem import Problem
-from ..reduction import ReducedModel, solved_shapes
+from ..reduction import ReducedModel, reduced_solutions
 
 FloatArray = NDArray[np.float64]
 
@@ -106,8 +106,3 @@ def after_steps(
         raise KeyboardInterrupt
     shapes: FloatArray = batch.shapes
     return shapes
-
-
-def reduced_solutions(model: ReducedModel, parameters: FloatArray) -> FloatArray:
-    """Displacements (k, 3n) from the problem's base; each solve starts from tau."""
-    return solved_shapes(model, parameters) - model.problem.base

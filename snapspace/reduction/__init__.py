@@ -35,7 +35,12 @@ from .quartic import (
 from .quartic_cost import LongWorkNotice, exact_seconds
 from .reduce import reduce
 from .reduced_model import ReducedModel
-from .solved_sessions import solved_sessions, solved_shapes
+from .solved_sessions import (
+    reduced_solutions,
+    solved_coordinates,
+    solved_sessions,
+    solved_shapes,
+)
 from .with_handles import with_handles
 
 __all__ = [
@@ -71,6 +76,8 @@ __all__ = [
     "pose_quartics",
     "reduce",
     "reduced_quartic",
+    "reduced_solutions",
+    "solved_coordinates",
     "solved_sessions",
     "solved_shapes",
     "training_tolerance",

@@ -1,4 +1,4 @@
-"""solved_sessions, solved_shapes: reduced solutions at given parameters."""
+"""solved_sessions and what follows from them: reduced solutions at given parameters."""
 
 from __future__ import annotations
 
@@ -25,9 +25,19 @@ def solved_sessions(model: ReducedModel, parameters: FloatArray) -> Iterator[Any
         yield session
 
 
-def solved_shapes(model: ReducedModel, parameters: FloatArray) -> FloatArray:
-    """The shapes (k, 3n) of these solutions."""
+def solved_coordinates(model: ReducedModel, parameters: FloatArray) -> FloatArray:
+    """The coordinates (k, d) of these solutions."""
     coordinates = np.empty((len(parameters), model.dimension))
     for q, session in zip(coordinates, solved_sessions(model, parameters), strict=True):
         q[:] = session.q
-    return model.subspace.shapes(coordinates)
+    return coordinates
+
+
+def solved_shapes(model: ReducedModel, parameters: FloatArray) -> FloatArray:
+    """Their shapes (k, 3n)."""
+    return model.subspace.shapes(solved_coordinates(model, parameters))
+
+
+def reduced_solutions(model: ReducedModel, parameters: FloatArray) -> FloatArray:
+    """Their displacements (k, 3n) from the problem's base."""
+    return solved_shapes(model, parameters) - model.problem.base

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blas import single_threaded_blas
-from ..reduction import InterpolationModel, PosingModel, solved_sessions, solved_shapes
+from ..reduction import InterpolationModel, PosingModel, reduced_solutions, solved_sessions
 from ..snapshots import Predictions, positive_inverse
 
 FloatArray = NDArray[np.float64]
@@ -35,12 +35,12 @@ def predicted_solutions(
         Whether to predict Hessians as well. They pay where samples take many evaluations: blends of
         tets, and motions that take fewer than 110, gain nothing by them.
     """
-    basis, offset = model.subspace.basis, model.problem.base
     if not hessians:
-        return Predictions(solved_shapes(model, parameters) - offset)
+        return Predictions(reduced_solutions(model, parameters))
     coordinates = np.empty((len(parameters), model.dimension))
     inverses = np.empty((*coordinates.shape, model.dimension))
     for k, session in enumerate(solved_sessions(model, parameters)):
         coordinates[k] = session.q
         inverses[k] = positive_inverse(session.hessian()) / STIFFER
-    return Predictions(model.subspace.shapes(coordinates) - offset, basis, inverses)
+    displacements = model.subspace.shapes(coordinates) - model.problem.base
+    return Predictions(displacements, model.subspace.basis, inverses)

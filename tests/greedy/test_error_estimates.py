@@ -19,8 +19,8 @@ from snapspace import (
     solve_snapshots,
 )
 from snapspace.greedy import estimated_errors
-from snapspace.greedy.error_estimates import reduced_solutions
 from snapspace.mesh import mass_norms
+from snapspace.reduction import reduced_solutions
 
 from ..shapes import interpolation_problem
 from ..snapshots.bars import posing_bar
