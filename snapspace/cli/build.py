@@ -69,8 +69,8 @@ DIMENSION = 40
     "--tets",
     type=TET_COUNT,
     metavar="N",
-    help="Number of tets, or triangles and hinges, of a cubature [default: 8 per mode, at most "
-    "1000; of a shell 12, at most 1500].",
+    help="Number of tets, or triangles and hinges, of a cubature [default: 8 per mode, beyond "
+    "1000 tets 6.5; of a shell 12, at most 1500].",
 )
 @shell_option
 @click.option("--repair", is_flag=True, help="Repair the mesh if it can be repaired.")
