@@ -34,13 +34,14 @@ void bind_training(nb::module_& m) {
       "training_columns",
       [](FloatsIn rows, FloatsIn stresses, FloatsIn along, FloatsOut columns, int threads) {
         const std::size_t candidates = rows.shape(0), states = stresses.shape(0);
-        require(rows.shape(1) == 9 && stresses.shape(1) == candidates && stresses.shape(2) == 9 &&
+        require(stresses.shape(1) == candidates && stresses.shape(2) == rows.shape(1) &&
                     along.shape(0) == states && along.shape(1) == rows.shape(2),
-                "rows (c, 9, d), stresses (s, c, 9) and along (s, d, k) do not match");
+                "rows (c, m, d), stresses (s, c, m) and along (s, d, k) do not match");
         require(columns.shape(0) == candidates && columns.shape(1) >= states * along.shape(2),
                 "columns must be (c, s k) or wider");
         const TrainingStates training{static_cast<int>(states), static_cast<int>(along.shape(2)),
-                                      stresses.data(), along.data()};
+                                      static_cast<int>(rows.shape(1)), stresses.data(),
+                                      along.data()};
         const ReleasedGil released;
         training_columns(static_cast<int>(rows.shape(2)), static_cast<int>(candidates), rows.data(),
                          training, threads, columns.shape(1), columns.data());

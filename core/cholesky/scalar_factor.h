@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cholesky/supernodes.h"
+#include "memory/prefetch.h"
 #include "memory/streamed_vector.h"
 #include "simd/packs.h"
 
@@ -71,15 +72,6 @@ class ScalarFactor {
   /// too: processors look ahead within a panel, but not to the panel before it.
   static constexpr int kBlocksAhead = 2;
 
-  /// Compilers drop calls to a function that does nothing but prefetch, unless they must inline it.
-  template <class T>
-  [[gnu::always_inline]] inline static void prefetch([[maybe_unused]] const T* begin,
-                                                     [[maybe_unused]] std::size_t count) {
-#if defined(__GNUC__)
-    const auto* bytes = reinterpret_cast<const char*>(begin);
-    for (std::size_t at = 0; at < count * sizeof(T); at += 64) __builtin_prefetch(bytes + at);
-#endif
-  }
   template <class Real>
   [[gnu::always_inline]] inline static void prefetch_row(const Real* all, const std::int32_t* rows,
                                                          int row, int count) {

@@ -40,7 +40,12 @@ BlendedEnergy::BlendedEnergy(const double* poses, int count, int vertex_count,
     std::vector<double>& offset = offsets_.emplace_back(poses, poses + size);
     for (std::size_t i = 0; i < size; ++i) offset[i] -= pose[i];
   }
-  if (energies_[0].stars) return;
+  if (energies_[0].stars) {
+    std::vector<const VertexStars*> stars;
+    for (const ElasticEnergy& energy : energies_) stars.push_back(&*energy.stars);
+    stars_.emplace(stars, offsets_);
+    return;
+  }
   const int numbers = numbers_of(kind());
   numbers_.resize(static_cast<std::size_t>(tet_count) * count * numbers);
   double* next = numbers_.data();
@@ -122,9 +127,7 @@ Sum<Real> BlendedEnergy::add_stars(const Real* blend, const Real* u, Real* gradi
     for (int i = 0; i < size(); ++i) gradient[i] = forces[i][0];
     return energy[0];
   } else if constexpr (std::is_same_v<typename ScalarOf<Real>::type, double>) {
-    std::vector<const VertexStars*> stars;
-    for (const ElasticEnergy& energy : energies_) stars.push_back(&*energy.stars);
-    return VertexStars::add_blended(stars, offsets_, blend, begin, end, u, gradient);
+    return stars_->add_value_and_gradient(blend, begin, end, u, gradient);
   } else {
     std::vector<Real> shape(size()), forces(size());
     Sum<Real> energy(0.0);
@@ -143,7 +146,7 @@ template <class Real>
 Sum<Real> BlendedEnergy::value_and_gradient(const Real* blend, const Real* u, Real* gradient,
                                             int begin, int end) const {
   std::fill_n(gradient, size(), Real(0.0));
-  if (energies_[0].stars) return add_stars(blend, u, gradient, begin, end);
+  if (stars_) return add_stars(blend, u, gradient, begin, end);
   return Densities::with(kind(), [&]<class Density>() {
     Sum<Real> energy(0.0);
     for (int t = begin; t < end; ++t) {

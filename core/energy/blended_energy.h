@@ -1,9 +1,11 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "energy/elastic_energy.h"
+#include "energy/star_blend.h"
 
 namespace snapspace {
 
@@ -67,6 +69,7 @@ class BlendedEnergy {
   std::vector<ElasticEnergy> energies_;
   std::vector<std::vector<double>> offsets_;
   std::vector<double> numbers_;  // tet by tet, pose by pose, see PoseBlend
+  std::optional<StarBlend> stars_;
 };
 
 #define SNAPSPACE_DECLARED(Real)                                                               \

@@ -84,126 +84,6 @@ Sum<Real> VertexStars::add_value_and_gradient(int begin, int end, const Real* u,
                    });
 }
 
-namespace {
-
-/// A star in one pose: L, H, W = R - I, and the pull of the Dirichlet energy on its vertex.
-template <class Real>
-struct TurnedStar {
-  Real L[3][3], H[3][3], W[3][3], pull[3];
-};
-
-/// Turns two stars at once: the latency of one's divisions hides behind the other's.
-template <class T, int Width>
-void turn_both(TurnedStar<Pack<T, Width>>& first, TurnedStar<Pack<T, Width>>& second) {
-  using Wide = Pack<T, 2 * Width>;
-  Wide L[3][3], H[3][3], W[3][3];
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) {
-      L[r][c] = joined(first.L[r][c], second.L[r][c]);
-      H[r][c] = joined(first.H[r][c], second.H[r][c]);
-    }
-  nearest_turn(L, H, W);
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) {
-      first.W[r][c] = half<false>(W[r][c]);
-      second.W[r][c] = half<true>(W[r][c]);
-    }
-}
-
-}  // namespace
-
-/// With W = R - I a star's energy is weight |G_t|^2 summed over its triangles, and its weight times
-/// |W L|^2 - 2 (W L) . H. The first parts of all stars are the Dirichlet energy.
-template <class Real>
-Sum<Real> VertexStars::add_blended(const std::vector<const VertexStars*>& poses,
-                                   const std::vector<std::vector<double>>& offsets,
-                                   const Real* pose_weights, int begin, int end, const Real* u,
-                                   Real* gradient) {
-  using T = typename ScalarOf<Real>::type;
-  const std::vector<std::int32_t>&starts = poses[0]->first_corner, &corners = poses[0]->corners;
-  std::vector<int> used;  // poses that count in any lane
-  for (int k = 0; k < static_cast<int>(poses.size()); ++k)
-    for (int lane = 0; lane < Real::kWidth; ++lane)
-      if (pose_weights[k][lane] != 0.0) {
-        used.push_back(k);
-        break;
-      }
-  std::vector<Real> edges, forces;
-  Sum<Real> energy(0.0);
-  for (int star = begin; star < end; ++star) {
-    const int first = starts[star] + 1, count = starts[star + 1] - first;
-    const std::size_t own = 3 * static_cast<std::size_t>(star);
-    edges.resize(3 * static_cast<std::size_t>(count));
-    forces.assign(edges.size(), Real(T(0)));
-    for (int j = 0; j < count; ++j)
-      for (int r = 0; r < 3; ++r)
-        edges[3 * j + r] = u[3 * static_cast<std::size_t>(corners[first + j]) + r] - u[own + r];
-    const auto gather = [&](int k, TurnedStar<Real>& turned) {
-      const VertexStars& pose = *poses[k];
-      const double* offset = offsets[k].data();
-      const T* g = pose.numbers<T>().gradients.data() + 3 * static_cast<std::size_t>(first);
-      load(&pose.numbers<T>().frames[3 * own], turned.L);
-      for (int r = 0; r < 3; ++r) {
-        turned.pull[r] = Real(T(0));
-        for (int c = 0; c < 3; ++c) turned.H[r][c] = Real(T(0));
-      }
-      for (int j = 0; j < count; ++j, g += 3) {
-        const double* const at = offset + 3 * static_cast<std::size_t>(corners[first + j]);
-        const Real coupling(static_cast<T>(pose.couplings_[first + j]));
-        for (int r = 0; r < 3; ++r) {
-          const Real edge = edges[3 * j + r] + Real(static_cast<T>(at[r] - offset[own + r]));
-          turned.pull[r] += coupling * edge;  // the couplings of a star sum to zero
-          for (int c = 0; c < 3; ++c) turned.H[r][c] += edge * Real(g[c]);
-        }
-      }
-    };
-    Real total[3] = {Real(T(0)), Real(T(0)), Real(T(0))};
-    const auto add = [&](int k, const TurnedStar<Real>& turned) {
-      const VertexStars& pose = *poses[k];
-      const Real weight = pose_weights[k] * Real(static_cast<T>(pose.weights[star]));
-      Real stress[3][3], sum(T(0));
-      for (int r = 0; r < 3; ++r) {
-        const auto& W = turned.W[r];
-        for (int c = 0; c < 3; ++c) {
-          const Real moved = W[0] * turned.L[0][c] + W[1] * turned.L[1][c] + W[2] * turned.L[2][c];
-          stress[r][c] = weight * moved;
-          sum += stress[r][c] * (moved - turned.H[r][c] - turned.H[r][c]);
-          stress[r][c] += stress[r][c];
-        }
-        const Real pull = pose_weights[k] * turned.pull[r];
-        sum += (u[own + r] + Real(static_cast<T>(offsets[k][own + r]))) * pull;
-        total[r] += pull + pull;
-      }
-      const T* g = pose.numbers<T>().gradients.data() + 3 * static_cast<std::size_t>(first);
-      for (int j = 0; j < count; ++j, g += 3)
-        for (int r = 0; r < 3; ++r)
-          forces[3 * j + r] +=
-              stress[r][0] * Real(g[0]) + stress[r][1] * Real(g[1]) + stress[r][2] * Real(g[2]);
-      energy += widened(sum);
-    };
-    TurnedStar<Real> one, other;
-    for (std::size_t k = 0; k < used.size(); k += 2) {
-      gather(used[k], one);
-      if (k + 1 == used.size()) {
-        nearest_turn(one.L, one.H, one.W);
-        add(used[k], one);
-        break;
-      }
-      gather(used[k + 1], other);
-      turn_both(one, other);
-      add(used[k], one);
-      add(used[k + 1], other);
-    }
-    for (int j = 0; j < count; ++j)
-      for (int r = 0; r < 3; ++r) {
-        gradient[3 * static_cast<std::size_t>(corners[first + j]) + r] -= forces[3 * j + r];
-        total[r] += forces[3 * j + r];
-      }
-    for (int r = 0; r < 3; ++r) gradient[own + r] += total[r];
-  }
-  return energy;
-}
-
 template <class Real>
 void VertexStars::add_rest_product(const Real* v, Real* product) const {
   using T = typename ScalarOf<Real>::type;
@@ -248,12 +128,6 @@ void VertexStars::add_hessian_product(const double* u, const double* v, double* 
   template Sum<Real> VertexStars::add_value_and_gradient(int, int, const Real*, Real*) const; \
   template void VertexStars::add_rest_product(const Real*, Real*) const;
 SNAPSPACE_LANE_PACKS(SNAPSPACE_DEFINED)
-#undef SNAPSPACE_DEFINED
-#define SNAPSPACE_DEFINED(Real)                                                        \
-  template Sum<Real> VertexStars::add_blended(const std::vector<const VertexStars*>&,  \
-                                              const std::vector<std::vector<double>>&, \
-                                              const Real*, int, int, const Real*, Real*);
-SNAPSPACE_DOUBLE_LANE_PACKS(SNAPSPACE_DEFINED)
 #undef SNAPSPACE_DEFINED
 template void VertexStars::gradient_of(int, const double*, double[3][3]) const;
 

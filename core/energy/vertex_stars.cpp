@@ -115,7 +115,7 @@ void VertexStars::find_corners(int vertex_count) {
 }
 
 void VertexStars::find_couplings() {
-  couplings_.assign(corners.size(), 0.0);
+  couplings.assign(corners.size(), 0.0);
   for (const Triangle<double>& triangle : double_.triangles) {
     const double hats[3][2] = {
         {-triangle.first[0], -triangle.first[1] - triangle.second},
@@ -128,7 +128,7 @@ void VertexStars::find_couplings() {
       const auto end = corners.begin() + first_corner[star + 1];
       for (int k = 0; k < 3; ++k) {
         const auto place = j == k ? begin : std::lower_bound(begin + 1, end, triangle.vertices[k]);
-        couplings_[place - corners.begin()] +=
+        couplings[place - corners.begin()] +=
             3.0 * triangle.weight * (hats[j][0] * hats[k][0] + hats[j][1] * hats[k][1]);
       }
     }
@@ -199,7 +199,7 @@ Eigen::SparseMatrix<double> VertexStars::remainder() const {
   std::vector<Eigen::Triplet<double>> entries;
   for (int star = 0; star < count(); ++star)
     for (int k = first_corner[star]; k < first_corner[star + 1]; ++k)
-      entries.emplace_back(star, corners[k], couplings_[k]);
+      entries.emplace_back(star, corners[k], couplings[k]);
   for (int star = 0; star < count(); ++star)
     for (int j = first_corner[star]; j < first_corner[star + 1]; ++j)
       for (int k = first_corner[star]; k < first_corner[star + 1]; ++k) {

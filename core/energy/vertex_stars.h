@@ -39,6 +39,9 @@ class VertexStars {
   std::vector<double> frames;     ///< L, row by row, nine per star
   std::vector<double> weights;    ///< sums of the triangles' weights
   std::vector<double> areas;      ///< a third of the area around each vertex
+  /// One per corner: the Dirichlet energy, the sum of weight_t |F_t - T_t|^2 over all stars and
+  /// their triangles, is that of u_i . u_j times it.
+  std::vector<double> couplings;
 
   /// Row of ShellArap of a star of modulus one.
   void write_numbers(int star, double* numbers) const;
@@ -50,16 +53,6 @@ class VertexStars {
   template <class Real>
   [[nodiscard]] Sum<Real> add_value_and_gradient(int begin, int end, const Real* u,
                                                  Real* gradient) const;
-
-  /// The weighted sum of the energies of several poses of one surface, each at u plus its offset
-  /// (3n), in one pass; adds its gradient. It takes four fifths of the time of single energies,
-  /// and loses digits where displacements are large: it is the Dirichlet energy, and what the
-  /// rotations of the stars add to it. For double precision.
-  template <class Real>
-  [[nodiscard]] static Sum<Real> add_blended(const std::vector<const VertexStars*>& poses,
-                                             const std::vector<std::vector<double>>& offsets,
-                                             const Real* weights, int begin, int end, const Real* u,
-                                             Real* gradient);
 
   /// Adds the Hessian at rest times v to `product` (3n).
   template <class Real>
@@ -103,8 +96,6 @@ class VertexStars {
   Sum<Real> add_stars(int begin, int end, const Real* u, Real* gradient, const Turn& turn) const;
 
   std::vector<std::int32_t> first_triangle_, triangles_;  // around each vertex
-  std::vector<double>
-      couplings_;  // per corner: the Dirichlet energy is the sum of u_i . u_j times it
   Numbers<double> double_;
   Numbers<float> single_;
   // inverse of tr(M) I - M, nine per star: turns the torque of a small displacement into a rotation

@@ -12,6 +12,14 @@ inline void multiply_transposed(const Real A[3][3], const Real B[3][3], Real pro
       product[r][c] = A[r][0] * B[c][0] + A[r][1] * B[c][1] + A[r][2] * B[c][2];
 }
 
+/// R - I for the rotation R nearest to I + change.
+template <class Real>
+inline void turn_of(const Real change[3][3], Real turn[3][3]) {
+  const RotationDistance<Real> distance(change);
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) turn[r][c] = change[r][c] - distance.difference[r][c];
+}
+
 /// R - I for the rotation R nearest to S = (L + G) L^T.
 template <class Real>
 inline void nearest_turn(const Real L[3][3], const Real G[3][3], Real turn[3][3]) {
@@ -20,9 +28,7 @@ inline void nearest_turn(const Real L[3][3], const Real G[3][3], Real turn[3][3]
     for (int c = 0; c < 3; ++c) F[r][c] = L[r][c] + G[r][c];
   multiply_transposed(F, L, change);
   for (int r = 0; r < 3; ++r) change[r][r] -= Real(1);
-  const RotationDistance<Real> distance(change);
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) turn[r][c] = change[r][c] - distance.difference[r][c];
+  turn_of(change, turn);
 }
 
 /// The derivative of the rotation nearest to S, from the Hessian of |S - R|^2 / 2.

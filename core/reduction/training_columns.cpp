@@ -42,12 +42,12 @@ class PaddedRows {
 };
 
 /// The reduced force of one tet: sum_e stress[e] rows[e].
-void force(const PaddedRows& rows, int tet, const float* stress, Singles* result) {
-  const Singles* map = rows.at(9 * static_cast<std::size_t>(tet));
+void force(const PaddedRows& rows, int tet, int numbers, const float* stress, Singles* result) {
+  const Singles* map = rows.at(static_cast<std::size_t>(numbers) * tet);
   const int packs = rows.packs();
   for (int p = 0; p < packs; ++p) {
     Singles sum(0.0f);
-    for (int e = 0; e < 9; ++e) sum += Singles(stress[e]) * map[e * packs + p];
+    for (int e = 0; e < numbers; ++e) sum += Singles(stress[e]) * map[e * packs + p];
     result[p] = sum;
   }
 }
@@ -100,16 +100,17 @@ void training_columns(int dimension, int candidates, const float* rows,
                       float* columns) {
   PaddedRows along(static_cast<std::size_t>(states.count) * dimension, states.directions);
   along.copy(0, static_cast<std::size_t>(states.count) * dimension, states.along);
+  const auto numbers = static_cast<std::size_t>(states.numbers);
   parallel_for((candidates + kCandidates - 1) / kCandidates, threads, [&](int group) {
     const int begin = group * kCandidates, count = std::min(kCandidates, candidates - begin);
-    PaddedRows maps(9 * kCandidates, dimension), forces(kCandidates, dimension),
+    PaddedRows maps(numbers * kCandidates, dimension), forces(kCandidates, dimension),
         products(kCandidates, states.directions);
-    maps.copy(0, 9 * static_cast<std::size_t>(count),
-              rows + 9 * static_cast<std::size_t>(begin) * dimension);
+    maps.copy(0, numbers * count, rows + numbers * begin * dimension);
     for (int s = 0; s < states.count; ++s) {
       const float* stress =
-          states.stresses + 9 * (static_cast<std::size_t>(s) * candidates + begin);
-      for (int c = 0; c < count; ++c) force(maps, c, stress + 9 * c, forces.at(c));
+          states.stresses + numbers * (static_cast<std::size_t>(s) * candidates + begin);
+      for (int c = 0; c < count; ++c)
+        force(maps, c, states.numbers, stress + numbers * c, forces.at(c));
       multiply(dimension, forces, along, s, products);
       for (int c = 0; c < count; ++c)
         std::copy_n(

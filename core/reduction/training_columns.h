@@ -6,9 +6,9 @@ namespace snapspace {
 /// The states that a cubature is trained on, with stresses and directions in each.
 struct TrainingStates {
   int count, directions;
-  const float*
-      stresses;        ///< count x candidates x 9, derivatives by the tets' displacement gradients
-  const float* along;  ///< count x dimension x directions
+  int numbers;            ///< of an element: nine, or of blended stars nine for each pose
+  const float* stresses;  ///< count x candidates x numbers, derivatives of energies by the numbers
+  const float* along;     ///< count x dimension x directions
 };
 
 /// Products of the forces of single tets with some directions, state by state: for candidate c and
@@ -16,7 +16,7 @@ struct TrainingStates {
 /// A force of 9 numbers first becomes one of d numbers, and then `directions` numbers: 2 d (9 +
 /// directions) operations in single precision for each candidate and state. All their data except
 /// the results stay in the processor's caches.
-/// @param rows  candidates x 9 x dimension, the maps G_c
+/// @param rows  candidates x numbers x dimension, the maps G_c
 /// @param stride  distance between the numbers of one candidate and those of the next
 /// @param columns  candidates x stride; the first count x directions of each are overwritten
 /// @param threads  0: as many as the machine has. The result is bitwise the same for any number

@@ -17,6 +17,7 @@ from ..sampling import Method, sample
 from ..session import predicted_solutions
 from ..snapshots import Snapshots, solve_snapshots
 from ..subspace import AffineSubspace
+from .predicted_errors import predicted_errors
 from .solving import Solving
 
 FloatArray = NDArray[np.float64]
@@ -35,10 +36,12 @@ class GrowingSamples:
     first, held_out : int
         The `first` samples train, the next `held_out` are held out, and all others train again.
     pilot : int, default 0
-        So many of the first samples are solved before others are predicted, all but the held-out
-        ones.
+        So many of the first samples are solved before others are predicted.
     slow : float, default 0
         Others are predicted only if these take more evaluations a sample.
+    judges_too : bool, default False
+        Whether held-out samples are predicted as well. Where there may be several minima they must
+        not depend on a model. Where there is one, a model's Hessians lead closer to it.
     """
 
     def __init__(
@@ -52,16 +55,19 @@ class GrowingSamples:
         held_out: int,
         pilot: int = 0,
         slow: float = 0.0,
+        judges_too: bool = False,
     ) -> None:
         self.problem = problem
         self.parameters = sample(problem.domain, most, method=method, seed=seed)
-        self._pilot, self._slow = pilot, slow
+        self._pilot, self._slow, self._judges_too = pilot, slow, judges_too
         self._judges = range(first, first + held_out)
         self._snapshots: Snapshots | None = None
         self._first_known: Snapshots | None = None  # where the first solves start
         self._given: Snapshots | None = None  # shapes that count for a basis
         self._gram = SnapshotGram.of(problem)
         self.seconds_a_sample = 0.0  # of the last ones
+        #: Of the last samples that a model predicted with its Hessians, see `predicted_errors`.
+        self.predicted_errors: FloatArray | None = None
 
     @property
     def are_predicted(self) -> bool:
@@ -146,8 +152,8 @@ class GrowingSamples:
             wanted = self.parameters[before:end]
             judging, predicted = before in self._judges, self.are_predicted
             chosen = solving.chosen(self.problem, judging=judging, predicted=predicted)
-            # a model of the pilot is rough: held-out samples stay independent of it
-            model = None if predicted and judging else predict()
+            independent = predicted and judging and not self._judges_too
+            model = None if independent else predict()
             begin, start = time.perf_counter(), None
             if model is not None:
                 start = predicted_solutions(model, wanted, hessians=predicted)
@@ -166,6 +172,8 @@ class GrowingSamples:
             )
             if not judging or not self.seconds_a_sample:  # held-out samples take longer
                 self.seconds_a_sample = (time.perf_counter() - begin) / len(wanted)
+            if predicted and model is not None and start is not None and solved.usable.any():
+                self.predicted_errors = predicted_errors(model, start, solved)
             self._snapshots = solved if before == 0 else self.snapshots.joined(solved)
             self._gram.add(list(solved.displacements), threads=solving.threads or 0)
 
@@ -192,7 +200,8 @@ class GrowingSamples:
     def projection_errors_onto(self, subspace: AffineSubspace) -> FloatArray:
         """Errors of projections of the held-out samples onto another basis, (k,)."""
         squares = np.diag(self._gram.matrix)[self._masks()[1]]
-        held = (subspace.row_coordinates(self.unseen.displacements) ** 2).sum(axis=1)
+        rows = self.unseen.displacements.shifted(self.problem.base - subspace.tau)
+        held = (subspace.row_coordinates(rows) ** 2).sum(axis=1)
         errors: FloatArray = np.sqrt(np.maximum(squares - held, 0.0) / squares)
         return errors
 

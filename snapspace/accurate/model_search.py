@@ -112,6 +112,7 @@ class ModelSearch:
             first=0 if self._old else self._plan.first,  # the old model has trained already
             pilot=0 if self._old else self._plan.pilot,
             slow=self._plan.slow,
+            judges_too=self._plan.trusts_predictions,
             held_out=self._plan.held_out,
         )
         self.steps: list[Step] = []
@@ -180,12 +181,10 @@ class ModelSearch:
                 self.most = self._most_predicted
                 stages = self._plan.stages(self.most)
             last = count == self.most or self._is_too_late(count, stages[stage + 1])
-            # the least: where more dimensions do not help, the ratio grows and means nothing
-            ratio = min((step.ratio for step in self.steps), default=self._plan.first_ratio)
             if self._first is not None and stage == 0:
                 yield self._taken(self._judged(count, self._first))
             else:
-                tries = DimensionSearch(self.samples, self._plan, self.target, ratio)
+                tries = DimensionSearch(self.samples, self._plan, self.target, self._ratio())
                 for dimension in tries.dimensions(last=last):
                     trial = self._taken(self._try(count, dimension, tries))
                     tries.add(trial.step)
@@ -196,6 +195,20 @@ class ModelSearch:
                 break
             target = f"{100 * self.target:.2g} %"
             self._tell(f"no dimension of {count} samples meets {target}: more samples")
+
+    def _ratio(self) -> float:
+        """Ratio of errors of reduced solutions to those of projections, as known so far.
+
+        The least of the steps: where more dimensions do not help, it grows and means nothing.
+        Before the first step, that of the last model that predicted samples, if there is one.
+        """
+        if self.steps:
+            return min(step.ratio for step in self.steps)
+        predicted = self.samples.predicted_errors
+        if predicted is None or not self._plan.trusts_predictions:
+            return self._plan.first_ratio
+        error, projection = (self._plan.typical(errors) for errors in predicted.T)
+        return error / max(projection, 1e-12)
 
     def _predict(self) -> Model | None:
         """The model that predicts the next samples, if there is one."""

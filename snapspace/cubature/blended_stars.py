@@ -97,10 +97,11 @@ class BlendedStars(BlendedElements):
         """
         poses = StarPoses(problem)
         check_in_mesh(tets, len(poses.measures), who="BlendedStars")
+        rows = poses.rows(subspace.basis, tets).reshape(len(tets), -1, 9, subspace.dimension)
         return cls(
             tets,
             weights,
-            poses.rows(subspace.basis, tets),
+            rows.swapaxes(0, 1),
             poses.material_of(tets),
             poses.origins(subspace.tau, tets),
             poses.forms(subspace) if forms is None else forms,

@@ -113,8 +113,7 @@ class PoseStarElements:
         self, basis: FloatArray, which: NDArray[np.int32], *, threads: int | None = None
     ) -> NDArray[np.float32]:
         """See `Elements`."""
-        rows = self.poses.rows(basis, which)
-        return rows.swapaxes(0, 1).reshape(len(which), -1, rows.shape[3])
+        return self.poses.rows(basis, which)
 
 
 def elements_of(problem: PosingProblem | InterpolationProblem) -> Elements:

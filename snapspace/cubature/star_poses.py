@@ -33,8 +33,12 @@ class StarPoses:
         return self.stars[0].measures
 
     def rows(self, basis: FloatArray, which: NDArray[np.int32]) -> NDArray[np.float32]:
-        """The nine numbers of modes (3n, d) in some stars (r,), (poses, r, 9, d)."""
-        return np.stack([one.gradients(basis, which).astype(np.float32) for one in self.stars])
+        """The nine numbers of modes (3n, d) in some stars (r,) and each pose, (r, 9 poses, d)."""
+        modes = np.ascontiguousarray(basis)
+        rows = np.empty((len(which), 9 * len(self.stars), modes.shape[1]), np.float32)
+        for k, one in enumerate(self.stars):
+            rows[:, 9 * k : 9 * k + 9] = one.gradients(modes, which)
+        return rows
 
     def material_of(self, which: NDArray[np.int32]) -> ShellMaterial:
         """Densities per area of the first pose of some stars (r,), poses * r rows."""
@@ -53,9 +57,8 @@ class StarPoses:
 
     def forms(self, subspace: AffineSubspace) -> FloatArray:
         """The quadratic part of each energy: (q, 1)^T M (q, 1), (poses, d + 1, d + 1)."""
+        modes = np.ascontiguousarray(subspace.basis)
+        shapes = subspace.tau - self._shapes
         return np.stack(
-            [
-                one.remainder(np.column_stack([subspace.basis, subspace.tau - pose]))
-                for one, pose in zip(self.stars, self._shapes, strict=True)
-            ]
+            [one.remainder_beside(modes, u) for one, u in zip(self.stars, shapes, strict=True)]
         )

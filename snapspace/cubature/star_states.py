@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core as core
+from .blended_stars import BlendedStars
 from .elastic_states import BlendingStates, GroupForces
 
 FloatArray = NDArray[np.float64]
@@ -20,7 +21,11 @@ class BlendedStarStates(BlendingStates):
 
     Stresses (m, 9 poses) are those of the poses one after the other, times their weights. Energies
     and forces are those of the stars, without the quadratic form that they leave.
+
+    forms : (poses, d + 1, d + 1), that form, see `BlendedStars`
     """
+
+    forms: FloatArray | None = None
 
     def evaluated(self, first: int, displacements: FloatArray, tets: IntArray) -> GroupForces:
         """See `ElasticStates`."""
@@ -54,6 +59,10 @@ class BlendedStarStates(BlendingStates):
             )
         ]
         return np.hstack(parts)
+
+    def sum_over(self, tets: IntArray, volumes: FloatArray) -> BlendedStars:
+        """See `ElasticStates`."""
+        return BlendedStars.of_tets(self.problem, self.subspace, tets, volumes, forms=self.forms)
 
     @property
     def _energies(self) -> list[core.ElasticEnergy]:

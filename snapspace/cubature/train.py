@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 from ..problem import InterpolationProblem, PosingProblem
 from ..subspace import AffineSubspace
 from .blended_stars import BlendedStars
-from .blended_sum import BlendedSum, blended_sum
+from .blended_sum import BlendedSum
 from .cubature import Cubature
 from .elastic_states import BlendingStates, PosingStates
 from .elements import element_count, has_hinges, has_stars
 from .fit_tets import FEWEST_SNAPSHOTS, Budget, fit_tets
 from .held_out_errors import held_out_errors
+from .star_poses import StarPoses
 from .star_states import BlendedStarStates
 
 FloatArray = NDArray[np.float64]
@@ -156,8 +157,7 @@ def train_blended_cubature(
     attached to the mean shape. The poses themselves, where all tets are at rest, do not count.
     """
     own = weights.max(axis=1, initial=0.0) < 1.0 - 1e-9
-    kind = BlendedStarStates if has_stars(problem) else BlendingStates
-    states = kind(problem, subspace, coordinates[own], weights[own])
+    states = _blending_states(problem, subspace, coordinates[own], weights[own])
     some = slice(None, None, PILOT_STEP)
     shapes = subspace.tau - problem.base + states.coordinates[some] @ subspace.basis.T
     energies = problem.system.evaluate(shapes, states.weights[some], threads=threads or 0)[0]
@@ -166,7 +166,7 @@ def train_blended_cubature(
     for usual in _growing(count, element_count(problem)):
         budget = Budget(tets, usual, FEWEST_BLENDS, TRAINED_BLENDS, BLEND_CANDIDATES)
         fit = fit_tets(states, budget, seed=seed, threads=threads)
-        cubature = blended_sum(problem, subspace, fit.tets, fit.volumes)
+        cubature = states.sum_over(fit.tets, fit.volumes)
         if tets is not None or _is_stable(cubature, problem.domain.center):
             break
     unseen = fit.unseen
@@ -178,6 +178,15 @@ def train_blended_cubature(
         fit.compliances,
     )
     return cubature, fit.record(errors)
+
+
+def _blending_states(
+    problem: InterpolationProblem, subspace: AffineSubspace, coordinates: FloatArray, w: FloatArray
+) -> BlendingStates:
+    if not has_stars(problem):
+        return BlendingStates(problem, subspace, coordinates, w)
+    forms = StarPoses(problem).forms(subspace)
+    return BlendedStarStates(problem, subspace, coordinates, w, forms=forms)
 
 
 def _growing(count: int, most: int) -> list[int]:

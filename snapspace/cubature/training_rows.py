@@ -83,16 +83,8 @@ def training_rows(
     forces = np.einsum("sd,sdk->sk", found.forces, along)
     scale = ENERGY_WEIGHT * np.sqrt(np.mean(forces**2) * directions) / found.units
     columns = np.zeros((len(candidates), count * (directions + 1)), np.float32)
-    part = np.zeros_like(columns) if modes.shape[1] > 9 else columns
-    for nine in range(0, modes.shape[1], 9):
-        core.training_columns(
-            np.ascontiguousarray(modes[:, nine : nine + 9]),
-            np.ascontiguousarray(found.stresses[:, :, nine : nine + 9]),
-            along.astype(np.float32),
-            part,
-            threads=threads or 0,
-        )
-        if part is not columns:
-            columns += part
+    core.training_columns(
+        modes, found.stresses, along.astype(np.float32), columns, threads=threads or 0
+    )
     columns[:, count * directions :] = (found.tet_energies * scale[:, None]).T
     return TrainingRows(columns, np.concatenate([forces.reshape(-1), found.energies * scale]))

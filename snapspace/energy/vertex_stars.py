@@ -46,29 +46,43 @@ class VertexStars:
     def __len__(self) -> int:
         return len(self.measures)
 
-    @single_threaded_blas
     def gradients(self, basis: FloatArray, stars: NDArray[np.integer[Any]]) -> FloatArray:
-        """The nine numbers of displacements (3n, d) in some stars (r,), (r, 9, d)."""
+        """The nine numbers of displacements (3n, d) in some stars (r,), (r, 9, d).
+
+        A basis that is C-contiguous is not copied.
+        """
         rows = self._gradients[(3 * stars[:, None] + np.arange(3)).reshape(-1)]
-        parts = [np.asarray(rows @ basis[a::3]) for a in range(3)]  # (3 r, d) of each coordinate a
-        both = np.stack(parts).reshape(3, len(stars), 3, -1).swapaxes(0, 1)
-        return np.ascontiguousarray(both.reshape(len(stars), 9, -1))
+        columns_first = self._by_vertex(rows, basis).reshape(len(stars), 3, 3, -1)
+        return columns_first.swapaxes(1, 2).reshape(len(stars), 9, -1)
 
     @single_threaded_blas
     def remainder(self, basis: FloatArray) -> FloatArray:
         """The quadratic form of modes (3n, d): a matrix K (d, d) of the energy q^T K q."""
-        form = np.zeros((basis.shape[1], basis.shape[1]))
-        for a in range(3):
-            part = np.ascontiguousarray(basis[a::3])
-            form += part.T @ self._forces(part)
+        form = basis.T @ self._forces(basis)
         return np.asarray((form + form.T) / 2.0)
+
+    @single_threaded_blas
+    def remainder_beside(self, basis: FloatArray, shape: FloatArray) -> FloatArray:
+        """The form (d + 1, d + 1) of modes (3n, d) and a displacement (3n,) after them."""
+        d, forces = basis.shape[1], self._forces(shape[:, None])[:, 0]
+        form = np.empty((d + 1, d + 1))
+        form[:d, :d] = self.remainder(basis)
+        form[d, :d] = form[:d, d] = forces @ basis
+        form[d, d] = forces @ shape
+        return form
 
     def remainder_at(self, displacements: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The quadratic form at displacements (g, 3n), (g,), and its gradients (g, 3n)."""
-        columns = displacements.reshape(len(displacements), -1, 3)
-        forces = np.stack([self._forces(u) for u in columns])
-        energies = np.einsum("gna,gna->g", columns, forces)
-        return energies, 2.0 * forces.reshape(displacements.shape)
+        forces = np.stack([self._forces(u[:, None])[:, 0] for u in displacements])
+        return np.einsum("gi,gi->g", displacements, forces), 2.0 * forces
 
-    def _forces(self, columns: FloatArray) -> FloatArray:
-        return np.asarray(self._remainder @ columns, np.float64)
+    def _forces(self, displacements: FloatArray) -> FloatArray:
+        """The form's matrix times displacements (3n, d)."""
+        forces = self._by_vertex(self._remainder, displacements)
+        return forces.reshape(displacements.shape)
+
+    @staticmethod
+    def _by_vertex(matrix: csr_array, displacements: FloatArray) -> FloatArray:
+        """A matrix (r, n) times displacements (3n, d), those of a vertex in a row: (r, 3 d)."""
+        rows = np.ascontiguousarray(displacements).reshape(matrix.shape[1], -1)
+        return np.asarray(matrix @ rows, np.float64)

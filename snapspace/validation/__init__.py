@@ -2,7 +2,7 @@
 
 from .error_curve import ErrorCurve, error_curve, usual_dimensions
 from .error_split import PARTS, ErrorSplit, Part, split_errors
-from .frame_errors import unseen_errors
+from .frame_errors import solution_errors, unseen_errors
 from .given_reference import check_reference
 from .lower_minima import with_lower_minima
 from .next_option import FACTOR, NextOption, needs_advice, next_option
@@ -24,6 +24,7 @@ __all__ = [
     "needs_advice",
     "next_option",
     "reference_options",
+    "solution_errors",
     "solved_reference",
     "split_errors",
     "unseen_errors",

@@ -31,7 +31,7 @@ def unseen_errors(model: ReducedModel, reference: Snapshots) -> FloatArray:
 def compared(
     model: ReducedModel, reference: Snapshots
 ) -> tuple[FloatArray, list[tuple[FrameReport, float]], NDArray[np.int64]]:
-    """Errors (k, 2), see `_errors`; reports and milliseconds of frames; inverted tets (k,)."""
+    """Errors (k, 2), see `solution_errors`; reports and milliseconds; inverted tets (k,)."""
     session, mesh = model.session(), model.problem.mesh
     solutions, frames, inverted = [], [], []
     for w in reference.parameters:
@@ -42,7 +42,8 @@ def compared(
         frames.append((report, 1e3 * (time.perf_counter() - begin)))
         inverted.append(_inverted(mesh, vertices))
         solutions.append(session.q.copy())
-    return _errors(model, reference, np.array(solutions)), frames, np.array(inverted, np.int64)
+    errors = solution_errors(model, reference, np.array(solutions))
+    return errors, frames, np.array(inverted, np.int64)
 
 
 def _inverted(mesh: Body, vertices: FloatArray) -> int:
@@ -52,7 +53,7 @@ def _inverted(mesh: Body, vertices: FloatArray) -> int:
     return int((tet_volumes(vertices, mesh.tets) <= 0).sum())
 
 
-def _errors(model: ReducedModel, reference: Snapshots, solutions: FloatArray) -> FloatArray:
+def solution_errors(model: ReducedModel, reference: Snapshots, solutions: FloatArray) -> FloatArray:
     """Errors (k, 2) of reduced solutions (k, d) and of projections; one shape at a time."""
     problem, subspace = model.problem, model.subspace
     rows = reference.displacements.shifted(problem.base - subspace.tau)

@@ -12,16 +12,16 @@ from ..shapes import irregular_bar
 
 
 @pytest.mark.parametrize(
-    ("candidates", "dimension", "states", "directions"),
-    [(1, 1, 1, 1), (33, 7, 2, 5), (70, 17, 3, 50), (32, 16, 1, 33)],
+    ("candidates", "numbers", "dimension", "states", "directions"),
+    [(1, 9, 1, 1, 1), (33, 27, 7, 2, 5), (70, 9, 17, 3, 50), (32, 36, 16, 1, 33)],
 )
 def test_columns_are_products_of_forces_and_directions(
-    candidates: int, dimension: int, states: int, directions: int
+    candidates: int, numbers: int, dimension: int, states: int, directions: int
 ) -> None:
     """Sizes leave any remainder of groups, packs and tiles; columns beyond are not touched."""
     rng = np.random.default_rng(candidates)
-    rows = rng.normal(size=(candidates, 9, dimension)).astype(np.float32)
-    stresses = rng.normal(size=(states, candidates, 9)).astype(np.float32)
+    rows = rng.normal(size=(candidates, numbers, dimension)).astype(np.float32)
+    stresses = rng.normal(size=(states, candidates, numbers)).astype(np.float32)
     along = rng.normal(size=(states, dimension, directions)).astype(np.float32)
     results = []
     for threads in (1, 2):
@@ -41,6 +41,10 @@ def test_arrays_that_do_not_match_are_refused() -> None:
     with pytest.raises(ValueError, match="columns must be"):
         along = np.zeros((2, 3, 5), np.float32)
         core.training_columns(rows, stresses, along, columns, threads=1)
+    with pytest.raises(ValueError, match="do not match"):
+        along = np.zeros((2, 3, 4), np.float32)
+        stars = np.zeros((4, 27, 3), np.float32)
+        core.training_columns(stars, stresses, along, columns, threads=1)
     with pytest.raises(ValueError, match="do not match"):
         along = np.zeros((2, 2, 4), np.float32)
         core.training_columns(rows, stresses, along, columns, threads=1)

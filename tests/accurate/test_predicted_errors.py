@@ -1,0 +1,111 @@
+"""Blends of surfaces: predictions measure their model, and held-out samples are predicted too."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from snapspace import (
+    ARAP,
+    InterpolationProblem,
+    PosingModel,
+    ShellPoses,
+    Snapshots,
+    reduce,
+    snapshot_pca,
+    solve_snapshots,
+)
+from snapspace.accurate.dimension_search import DimensionSearch
+from snapspace.accurate.growing_samples import GrowingSamples, Model
+from snapspace.accurate.model_search import ModelSearch, SearchOptions
+from snapspace.accurate.plan import BLENDS
+from snapspace.accurate.predicting import Predicting
+from snapspace.accurate.solving import Solving
+from snapspace.generators import lizard_poses
+from snapspace.mesh import mass_norms
+from snapspace.validation import unseen_errors
+
+FloatArray = NDArray[np.float64]
+
+
+class Predicted:
+    """Samples of a problem, most of them predicted, and the last model that did it."""
+
+    def __init__(self, problem: InterpolationProblem, *, judges_too: bool) -> None:
+        self.problem = problem
+        self.model: Model | None = None
+        self._predicting = Predicting()
+        self.samples = GrowingSamples(
+            problem,
+            28,
+            method="blends",
+            seed=0,
+            first=20,
+            held_out=8,
+            pilot=12,
+            judges_too=judges_too,
+        )
+        self.samples.solve_up_to(28, Solving(threads=2), predict=self._predict)
+
+    def _predict(self) -> Model | None:
+        self.model = self._predicting.model(self.samples.solved, self._make)
+        return self.model
+
+    def _make(self, solved: Snapshots, dimension: int, trained: Snapshots) -> Model:
+        subspace = snapshot_pca(solved, dimension=dimension)
+        return reduce(self.problem, subspace, snapshots=trained, threads=2)
+
+
+@pytest.fixture(scope="module")
+def problem() -> InterpolationProblem:
+    """Three lizards, as surfaces."""
+    meshes = lizard_poses(3, 2000, seed=3)
+    used, faces = np.unique(meshes[0].surface, return_inverse=True)
+    shapes = [mesh.vertices[used] for mesh in meshes]
+    poses = ShellPoses(shapes, faces.reshape(-1, 3), thickness=0.02)
+    return InterpolationProblem(poses, material=ARAP())
+
+
+@pytest.fixture(scope="module")
+def predicted(problem: InterpolationProblem) -> Predicted:
+    return Predicted(problem, judges_too=True)
+
+
+def test_predictions_measure_their_model(predicted: Predicted) -> None:
+    """Its solutions are the starts, and the solved samples are what they are compared with."""
+    errors, model = predicted.samples.predicted_errors, predicted.model
+    assert errors is not None and model is not None and not isinstance(model, PosingModel)
+    assert errors[:, 0] == pytest.approx(unseen_errors(model, predicted.samples.unseen), rel=1e-3)
+    projections = predicted.samples.projection_errors_onto(model.subspace)
+    assert errors[:, 1] == pytest.approx(projections, abs=2e-5)  # these are roots of differences
+    assert (errors[:, 1] < errors[:, 0]).all()
+
+
+def test_predicted_judges_are_closer_to_the_minimum_for_less(
+    problem: InterpolationProblem, predicted: Predicted
+) -> None:
+    alone = Predicted(problem, judges_too=False)
+    options = Solving().judging(problem)
+    tight = replace(options, tolerance=1e-3 * options.resolved(problem).tolerance)
+    misses, evaluations = [], []
+    for one in (predicted, alone):
+        judges = one.samples.unseen
+        minima = solve_snapshots(problem, judges.parameters, options=tight, known=judges, threads=2)
+        apart = minima.displacements.array() - judges.displacements.array()
+        misses.append(mass_norms(problem.mass(), apart).mean())
+        evaluations.append(np.mean([report.evaluations for report in judges.reports]))
+    assert misses[0] < 1.2 * misses[1]
+    assert evaluations[0] < 0.8 * evaluations[1]
+
+
+def test_the_first_dimension_follows_from_the_predictions(problem: InterpolationProblem) -> None:
+    search = ModelSearch(problem, SearchOptions(), Solving(threads=2))
+    first = next(search.trials())
+    errors = search.samples.predicted_errors
+    assert errors is not None
+    ratio = errors[:, 0].mean() / errors[:, 1].mean()
+    wanted = DimensionSearch(search.samples, BLENDS, search.target, ratio).dimensions(last=False)
+    assert first.step.dimension == next(wanted)
