@@ -17,7 +17,6 @@ from ..sampling import Method, sample
 from ..session import predicted_solutions
 from ..snapshots import Snapshots, solve_snapshots
 from ..subspace import AffineSubspace
-from .predicted_errors import predicted_errors
 from .solving import Solving
 
 FloatArray = NDArray[np.float64]
@@ -66,8 +65,6 @@ class GrowingSamples:
         self._given: Snapshots | None = None  # shapes that count for a basis
         self._gram = SnapshotGram.of(problem)
         self.seconds_a_sample = 0.0  # of the last ones
-        #: Of the last samples that a model predicted with its Hessians, see `predicted_errors`.
-        self.predicted_errors: FloatArray | None = None
 
     @property
     def are_predicted(self) -> bool:
@@ -172,8 +169,6 @@ class GrowingSamples:
             )
             if not judging or not self.seconds_a_sample:  # held-out samples take longer
                 self.seconds_a_sample = (time.perf_counter() - begin) / len(wanted)
-            if predicted and model is not None and start is not None and solved.usable.any():
-                self.predicted_errors = predicted_errors(model, start, solved)
             self._snapshots = solved if before == 0 else self.snapshots.joined(solved)
             self._gram.add(list(solved.displacements), threads=solving.threads or 0)
 

@@ -19,6 +19,7 @@ from .checks import check_budget, check_most, check_target
 from .dimension_search import DimensionSearch
 from .early_parts import make_early_parts
 from .growing_samples import GrowingSamples
+from .measured_ratio import measured_ratio
 from .old_model import OldModel, check_start, usual_shapes
 from .plan import plan_of, predicted_most_samples, usual_most_samples
 from .predicting import Predicting
@@ -100,7 +101,7 @@ class ModelSearch:
             self._near = min(wanted, self.most - self._plan.held_out)
             self._old = OldModel(start, problem, most=self._near)
         self._first: Model | None = None  # made from the old one
-        self._predicting = Predicting()
+        self.predicting = Predicting()
         self._solving, self._surface = solving, surface
         self._tell = tell or (lambda line: None)
         self._begins = begins or (lambda part: None)
@@ -204,17 +205,16 @@ class ModelSearch:
         """
         if self.steps:
             return min(step.ratio for step in self.steps)
-        predicted = self.samples.predicted_errors
-        if predicted is None or not self._plan.trusts_predictions:
+        model = self.predicting.latest
+        if model is None or not self._plan.trusts_predictions:
             return self._plan.first_ratio
-        error, projection = (self._plan.typical(errors) for errors in predicted.T)
-        return error / max(projection, 1e-12)
+        return measured_ratio(model, self.samples.unseen, self._plan)
 
     def _predict(self) -> Model | None:
         """The model that predicts the next samples, if there is one."""
         if not self.samples.are_predicted:
             return self.best.model if self.best else self._first
-        model = self._predicting.model(self.samples.solved, self._model)
+        model = self.predicting.model(self.samples.solved, self._model)
         self._begins("snapshots")
         return model
 
@@ -234,7 +234,7 @@ class ModelSearch:
         """Reports and records a trial, and returns it."""
         self._tell(str(trial.step))
         self.steps.append(trial.step)
-        self._predicting.take(trial.model, self.samples.trained)
+        self.predicting.take(trial.model, self.samples.trained)
         if self.best is None or trial.step.error < self.best.step.error:
             self.best = trial
         return trial

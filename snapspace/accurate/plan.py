@@ -32,8 +32,8 @@ class Plan:
     pilot : how many of them make a model that predicts the others; then every stage makes a model
         for the next one. 0: only models that may meet the target are made
     slow : the pilot's model predicts others only if its samples take more evaluations, on average
-    trusts_predictions : whether the held-out samples are predicted as well, and the errors of
-        predictions are those that the first model is expected to have
+    trusts_predictions : whether the held-out samples are predicted as well, and the first model is
+        expected to have the ratio of the model that predicts, not `first_ratio`
     held_out : number of samples that judge models
     first_ratio : assumed ratio of errors of reduced solutions to those of projections, before it is
         measured; too low a ratio costs models that miss the target, too high a ratio samples
@@ -91,7 +91,7 @@ class Plan:
 
 #: For blends of generated and real poses the ratio is 2 to 14. Blends of surfaces are predicted:
 #: from a model's solutions, with its Hessians, held-out ones end half as far from the minimum, and
-#: the ratio of predictions is nearly that of the first model (docs/notes/surface-blends.md).
+#: the ratio of a model that predicts is near that of the first one (docs/notes/surface-blends.md).
 BLENDS = Plan(
     target=0.005,
     typical=lambda errors: float(np.mean(errors)),
@@ -115,7 +115,7 @@ BLENDS = Plan(
     looser_if_large=1.0,
 )
 #: For motions the ratio is 3 to 7. Where they are predicted it falls with the dimension, from 72 to
-#: 45 or 98 to 29, so that the ratio of predictions would cost samples. There may be several minima.
+#: 45 or 98 to 29, so that the ratio of such models would cost samples. There may be several minima.
 MOTIONS = Plan(
     target=0.003,
     typical=lambda errors: float(np.median(errors)),

@@ -28,6 +28,11 @@ class Predicting:
         self._model: Model | None = None
         self._count = 0  # of the samples that it is made of
 
+    @property
+    def latest(self) -> Model | None:
+        """The last one; None if there is none yet."""
+        return self._model
+
     def take(self, model: Model, solved: Snapshots) -> None:
         """Takes the leading dimensions of a model that was made of these samples to meet a target.
 

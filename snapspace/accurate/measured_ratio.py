@@ -1,0 +1,15 @@
+"""measured_ratio: how much farther off than projections the solutions of a model are."""
+
+from __future__ import annotations
+
+from ..reduction import InterpolationModel, PosingModel, solved_coordinates
+from ..snapshots import Snapshots
+from ..validation import solution_errors
+from .plan import Plan
+
+
+def measured_ratio(model: PosingModel | InterpolationModel, unseen: Snapshots, plan: Plan) -> float:
+    """Typical error of the model's solutions at unseen samples over that of their projections."""
+    coordinates = solved_coordinates(model, unseen.parameters)
+    errors, projections = solution_errors(model, unseen, coordinates).T
+    return plan.typical(errors) / max(plan.typical(projections), 1e-12)
