@@ -12,6 +12,8 @@ StarBlend::StarBlend(const std::vector<const VertexStars*>& poses,
                      const std::vector<std::vector<double>>& offsets)
     : poses_(poses.size()), first_corner_(poses[0]->first_corner), corners_(poses[0]->corners) {
   const int count = poses[0]->count();
+  const std::size_t vertices = first_corner_.size() - 1;
+  numbers_.reserve(poses_ * (kHeader * vertices + kPerCorner * (corners_.size() - vertices)));
   for (int star = 0; star < count; ++star)
     for (std::size_t k = 0; k < poses_; ++k) {
       const VertexStars& pose = *poses[k];

@@ -101,7 +101,7 @@ class ModelSearch:
             self._near = min(wanted, self.most - self._plan.held_out)
             self._old = OldModel(start, problem, most=self._near)
         self._first: Model | None = None  # made from the old one
-        self.predicting = Predicting()
+        self._predicting = Predicting()
         self._solving, self._surface = solving, surface
         self._tell = tell or (lambda line: None)
         self._begins = begins or (lambda part: None)
@@ -205,7 +205,7 @@ class ModelSearch:
         """
         if self.steps:
             return min(step.ratio for step in self.steps)
-        model = self.predicting.latest
+        model = self._predicting.latest
         if model is None or not self._plan.trusts_predictions:
             return self._plan.first_ratio
         return measured_ratio(model, self.samples.unseen, self._plan)
@@ -214,7 +214,7 @@ class ModelSearch:
         """The model that predicts the next samples, if there is one."""
         if not self.samples.are_predicted:
             return self.best.model if self.best else self._first
-        model = self.predicting.model(self.samples.solved, self._model)
+        model = self._predicting.model(self.samples.solved, self._model)
         self._begins("snapshots")
         return model
 
@@ -234,7 +234,7 @@ class ModelSearch:
         """Reports and records a trial, and returns it."""
         self._tell(str(trial.step))
         self.steps.append(trial.step)
-        self.predicting.take(trial.model, self.samples.trained)
+        self._predicting.take(trial.model, self.samples.trained)
         if self.best is None or trial.step.error < self.best.step.error:
             self.best = trial
         return trial
