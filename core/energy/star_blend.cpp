@@ -82,7 +82,7 @@ class StarBlend::StarSum {
     const double* const L = numbers_ + kFrame;
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) {
-        Real product = map_[r][0] * Real(L[3 * c]);
+        Real product = rounded(map_[r][0] * Real(L[3 * c]));
         for (int s = 1; s < 3; ++s) product += map_[r][s] * Real(L[3 * c + s]);
         change[r][c] = r == c ? product - Real(T(1)) : product;
       }
@@ -95,7 +95,7 @@ class StarBlend::StarSum {
     Real stress[3][3];
     for (int r = 0; r < 3; ++r) {
       for (int c = 0; c < 3; ++c) {
-        Real moved = W[r][0] * Real(L[c]);
+        Real moved = rounded(W[r][0] * Real(L[c]));
         for (int s = 1; s < 3; ++s) moved += W[r][s] * Real(L[3 * s + c]);
         const Real change = map_[r][c] - Real(L[3 * r + c]);
         stress[r][c] = weight * moved;
