@@ -122,6 +122,11 @@ def compute(page: Page, most_samples: int = 20, percent: float = 50.0) -> None:
     press(page, "Compute")
 
 
+def wait_for_last_model(page: Page) -> None:
+    """Waits until nothing is computed: what a model brings moves the buttons below it."""
+    page.page.get_by_role("button", name="Cancel", exact=True).wait_for(state="hidden")
+
+
 def wait_for_text(page: Page, selector: str, text: str) -> None:
     end = time.monotonic() + SECONDS
     while text not in (found := page.text(selector)):

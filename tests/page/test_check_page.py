@@ -8,7 +8,14 @@ import numpy as np
 
 from snapspace.mesh import write_surface
 
-from .choosing_page import BAR, compute, ends_as_handles, press, wait_for_text
+from .choosing_page import (
+    BAR,
+    compute,
+    ends_as_handles,
+    press,
+    wait_for_last_model,
+    wait_for_text,
+)
 from .pages import OpenPage
 from .serving import served
 
@@ -40,6 +47,7 @@ def test_holes_are_listed_and_what_closes_them_is_drawn(
         ends_as_handles(page)
         compute(page)
         page.wait("snapspace.kind === 'posing'")
+        wait_for_last_model(page)
         assert page.run(INVENTED) == [], "a posed shape is not that surface"
         press(page, "Choose handles")
         page.wait("snapspace.kind === 'choosing'")
