@@ -14,8 +14,8 @@ struct TrainingStates {
 /// Products of the forces of single tets with some directions, state by state: for candidate c and
 /// state s the numbers along_s^T G_c^T P_sc.
 /// A force of 9 numbers first becomes one of d numbers, and then `directions` numbers: 2 d (9 +
-/// directions) operations in single precision for each candidate and state. All their data except
-/// the results stay in the processor's caches.
+/// directions) operations in single precision for each candidate and state. Poses of a star add
+/// only to the first part. All their data except the results stay in the processor's caches.
 /// @param rows  candidates x numbers x dimension, the maps G_c
 /// @param stride  distance between the numbers of one candidate and those of the next
 /// @param columns  candidates x stride; the first count x directions of each are overwritten
