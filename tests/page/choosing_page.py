@@ -25,7 +25,7 @@ TAKE_HANDLES = """(given) => snapspace.choosing.go({
 def places(page: Page) -> NDArray[np.float64]:
     """Where the vertices are in the window, (n, 2)."""
     script = "[...Array(snapspace.choosing.mesh.shape.length / 3).keys()].flatMap(snapspace.screen)"
-    return np.array(page.run(script)).reshape(-1, 2)
+    return page.numbers(script).reshape(-1, 2)
 
 
 def selected(page: Page) -> set[int]:

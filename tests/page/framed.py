@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ..page_numbers import numbers
 from .pages import SECONDS
 
 STATE = "window.snapspace ? snapspace.message || (snapspace.ready ? 'ready' : '') : ''"
@@ -30,7 +31,7 @@ def dragged(page: Any, frame: Any, handle: int, dx: float, dy: float) -> float:
     box = element.bounding_box()
     x, y = frame.evaluate(f"snapspace.handle({handle})")
     x, y = x + box["x"], y + box["y"]
-    before = np.array(frame.evaluate("[...snapspace.shown()]"))
+    before = numbers(frame, "snapspace.shown()")
     page.mouse.move(x, y)
     page.mouse.down()
     for step in range(1, 6):
@@ -38,4 +39,4 @@ def dragged(page: Any, frame: Any, handle: int, dx: float, dy: float) -> float:
         page.wait_for_timeout(50)
     page.mouse.up()
     page.wait_for_timeout(300)
-    return float(np.abs(np.array(frame.evaluate("[...snapspace.shown()]")) - before).max())
+    return float(np.abs(numbers(frame, "snapspace.shown()") - before).max())

@@ -16,5 +16,5 @@ def session_at_frame(page: Page, model: PosingModel) -> PosingSession:
         (np.array(page.run(f"snapspace.session.motion({handle}).rotation")).reshape(3, 3), shift)
         for handle, (_, shift) in page.motions().items()
     ]
-    session.put(motions, page.run("[...snapspace.session.q]"))
+    session.put(motions, page.numbers("snapspace.session.q"))
     return session

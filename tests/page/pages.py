@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..browser import COARSE
+from ..page_numbers import numbers
 
 Point = tuple[float, float]
 OpenPage = Callable[..., "Page"]
@@ -62,6 +63,10 @@ class Page:
     def run(self, script: str, argument: Any = None) -> Any:
         return self.page.evaluate(script, argument)
 
+    def numbers(self, expression: str) -> NDArray[np.float64]:
+        """The values of an array of numbers."""
+        return numbers(self.page, expression)
+
     def wait(self, condition: str) -> None:
         """Waits until an expression is true. The page forbids what Playwright has for that."""
         end = time.monotonic() + SECONDS
@@ -83,7 +88,7 @@ class Page:
     def shown(self, name: str = "shown") -> NDArray[np.float64]:
         """The vertices that the vertex shader gets, (s, 3)."""
         self.settle()
-        return np.array(self.run(f"[...snapspace.{name}()]")).reshape(-1, 3)
+        return self.numbers(f"snapspace.{name}()").reshape(-1, 3)
 
     def drag(self, start: Point, dx: float, dy: float, *, shift: bool = False) -> None:
         """Drags with the pointer, in steps."""

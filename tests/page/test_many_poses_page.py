@@ -13,7 +13,6 @@ from snapspace import InterpolationModel
 from .pages import OpenPage, Page, Tabs
 from .test_blending_page import assert_shown
 
-SHAPE = "[...snapspace.shown()]"
 
 
 #: Rest takes part alone, and then the two others that take part at first. One pose must stay.
@@ -204,7 +203,7 @@ def test_strains_of_a_sparse_blend_are_relative_to_its_poses(
     page.page.get_by_role("radio", name="Strain").click()
     page.page.get_by_role("slider", name="arc-02").fill("1")
     page.settle()
-    strains = np.array(page.run("[...snapspace.strains()]"))
+    strains = page.numbers("snapspace.strains()")
     model = many_poses_model
     pose = model.surface.vertices(model.problem.pose_shapes[2].reshape(-1, 3))
     error = np.abs(page.shown() - pose).max() / model.problem.mesh.diagonal

@@ -47,9 +47,9 @@ def test_it_is_chosen_on_computed_dragged_polished_and_saved(
     vertices, faces = read_surface(folder / "bar.obj")
     page = opened(address)
     page.wait("snapspace.kind === 'choosing'")
-    shape = np.array(page.run("[...snapspace.choosing.mesh.shape]")).reshape(-1, 3)
+    shape = page.numbers("snapspace.choosing.mesh.shape").reshape(-1, 3)
     np.testing.assert_allclose(shape, vertices, atol=1e-6)
-    assert page.run("[...snapspace.choosing.mesh.faces]") == faces.ravel().tolist()
+    assert np.array_equal(page.numbers("snapspace.choosing.mesh.faces"), faces.ravel())
     assert "inside" not in page.text(".hud p")
     ends_as_handles(page)
     chosen = handles(page)
@@ -61,7 +61,7 @@ def test_it_is_chosen_on_computed_dragged_polished_and_saved(
     wait_for_text(page, "#panel", "Done in")
     assert page.run("snapspace.session.model.space.vertices") == len(vertices)
     np.testing.assert_allclose(page.shown(), vertices, atol=1e-5)
-    owners = np.array(page.run("[...snapspace.session.model.handleOfVertex]"))
+    owners = page.numbers("snapspace.session.model.handleOfVertex")
     for index, name in enumerate(("foot", "head")):
         assert chosen[name] == set(np.flatnonzero(owners == index).tolist()), "as painted"
 
@@ -98,7 +98,7 @@ def assert_saved_shows_the_surface(
         page.page.locator("footer input[type=file]").set_input_files(folder / "bar.snapspace")
         page.wait("snapspace.kind === 'posing'")
         assert page.run("snapspace.stage.up") == "y"
-        owners = np.array(page.run("[...snapspace.session.model.handleOfVertex]"))
+        owners = page.numbers("snapspace.session.model.handleOfVertex")
         for index, name in enumerate(("foot", "head")):
             assert chosen[name] == set(np.flatnonzero(owners == index).tolist())
         press(page, "Choose handles")

@@ -106,7 +106,7 @@ def test_the_badge_shows_the_error_of_a_calibrated_model(
     page.drag(page.run("snapspace.handle(1)"), 60, -50)
     page.wait("/^(good|rough|outside) [0-9.]+ %$/.test(document.querySelector('.badge').innerText)")
     found = page.run("snapspace.session.certificate()")
-    session, q = model.session(), np.array(page.run("[...snapspace.session.q]"))
+    session, q = model.session(), page.numbers("snapspace.session.q")
     motions = [
         (np.array(page.run(f"snapspace.session.motion({handle}).rotation")).reshape(3, 3), shift)
         for handle, (_, shift) in page.motions().items()

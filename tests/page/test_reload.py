@@ -99,7 +99,7 @@ def test_handles_are_chosen_on_the_first_pose_of_a_blending_model(
     page.wait("snapspace.kind === 'interpolation'")
     press(page, "Choose handles")
     page.wait("snapspace.kind === 'choosing'")
-    shape = np.array(page.run("[...snapspace.choosing.mesh.shape]")).reshape(-1, 3)
+    shape = page.numbers("snapspace.choosing.mesh.shape").reshape(-1, 3)
     first = blending_model.problem.poses.reference.vertices
     np.testing.assert_allclose(shape, first, atol=1e-6)
     assert handles(page) == {} and page.text(".hud h1") == "poses"

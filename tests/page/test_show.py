@@ -15,6 +15,7 @@ import pytest
 from snapspace import PosingModel
 from snapspace.page import page_with_model, show
 
+from ..page_numbers import numbers
 from .framed import dragged, ready
 from .pages import OpenPage
 
@@ -101,6 +102,6 @@ def test_two_pages_run_inside_another_page(
         "fewer",
         8,
     ]
-    before = two.evaluate("[...snapspace.shown()]")
+    before = numbers(two, "snapspace.shown()")
     assert dragged(page.page, one, 1, 40, -30) > 0.02
-    np.testing.assert_array_equal(two.evaluate("[...snapspace.shown()]"), before)
+    np.testing.assert_array_equal(numbers(two, "snapspace.shown()"), before)

@@ -42,7 +42,7 @@ def dropped(
 
 def take_ends(page: Page) -> dict[str, set[int]]:
     """Both ends along x become the handles low and high."""
-    x = np.array(page.run("[...snapspace.choosing.mesh.shape]")).reshape(-1, 3)[:, 0]
+    x = page.numbers("snapspace.choosing.mesh.shape").reshape(-1, 3)[:, 0]
     ends = {"low": x < x.min() + 0.3, "high": x > x.max() - 0.3}
     page.run(TAKE_HANDLES, [[name, np.flatnonzero(end).tolist()] for name, end in ends.items()])
     return handles(page)

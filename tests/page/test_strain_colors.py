@@ -33,7 +33,7 @@ def squares(rest: FloatArray, shape: FloatArray, faces: NDArray[np.int32]) -> Fl
 def strains(page: Page) -> FloatArray:
     """The strains that the vertex shader gets."""
     page.settle()
-    return np.array(page.run("[...snapspace.strains()]"))
+    return page.numbers("snapspace.strains()")
 
 
 @pytest.mark.parametrize("query", ["", "?deform=cpu"])

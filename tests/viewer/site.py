@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..page_numbers import numbers
+
 SECONDS = 60.0  # software rendering on a busy machine is slow
 
 PAGE = """<!doctype html>
@@ -76,15 +78,15 @@ class Viewer:
 
     def run(self, script: str) -> Any:
         """Evaluates an expression in which `viewer` is the component."""
-        return self.page.evaluate(
-            f"(() => {{ const viewer = document.querySelector('snapspace-viewer'); "
-            f"return ({script}); }})()"
-        )
+        return self.page.evaluate(_with_viewer(script))
+
+    def numbers(self, expression: str) -> NDArray[np.float64]:
+        """The values of an array of numbers, or of a promise of one."""
+        return numbers(self.page, _with_viewer(expression))
 
     def wait(self, condition: str) -> None:
         self.page.wait_for_function(
-            f"(() => {{ const viewer = document.querySelector('snapspace-viewer'); "
-            f"return viewer && ({condition}); }})()",
+            _with_viewer(f"viewer && ({condition})"),
             timeout=1000 * SECONDS,
         )
 
@@ -97,4 +99,12 @@ class Viewer:
     @property
     def shape(self) -> NDArray[np.float64]:
         """Vertices of the surface as it is shown."""
-        return np.array(self.run("[...viewer.shape().positions]")).reshape(-1, 3)
+        return self.numbers("viewer.shape().positions").reshape(-1, 3)
+
+
+def _with_viewer(expression: str) -> str:
+    """An expression in which `viewer` is the component."""
+    return (
+        "(() => { const viewer = document.querySelector('snapspace-viewer'); "
+        f"return ({expression}); }})()"
+    )

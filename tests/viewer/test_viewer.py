@@ -196,11 +196,11 @@ def test_the_film_that_a_model_was_saved_with_is_played(
 
 def test_a_picture_is_transparent_and_has_the_size_that_was_asked_for(opened: Open) -> None:
     viewer = opened("posing.html")
-    content = viewer.run(
+    content = viewer.numbers(
         "viewer.picture(200, 150).then((blob) => blob.arrayBuffer())"
-        ".then((bytes) => [...new Uint8Array(bytes)])"
+        ".then((bytes) => new Uint8Array(bytes))"
     )
-    picture = np.array(Image.open(io.BytesIO(bytes(content))))
+    picture = np.array(Image.open(io.BytesIO(content.astype(np.uint8))))
     assert picture.shape == (150, 200, 4)
     assert picture[0, 0, 3] == 0 and (picture[..., 3] == 255).any()
 
