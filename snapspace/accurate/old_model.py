@@ -10,19 +10,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..displacements import DisplacementRows
-from ..greedy import after_steps
 from ..interruptible import begin_abandonable
 from ..problem import HandleBox, Handles, PosingProblem
 from ..reduction import PosingModel, handle_quadric, reduced_solutions
-from ..snapshots import SampleReport, Snapshots, carry_over, lowest_start
+from ..snapshots import (
+    Predictions,
+    SampleReport,
+    Snapshots,
+    SolverOptions,
+    carry_over,
+    lowest_start,
+    solve_snapshots,
+)
+from .predicting import MOST_DIMENSIONS
 
 FloatArray = NDArray[np.float64]
 
-#: Steps of L-BFGS from a guess; a whole solve takes 60 to 100. They leave a hundredth to a sixth of
-#: its error: 0.0005 on the creature with a new tail, 0.018 on Spot, 0.015 on the hand.
-STEPS = 20
-#: Fewest shapes near solutions for each parameter.
-SHAPES_A_PARAMETER = 8
+#: Tolerance of shapes near solutions, which takes 12 to 27 evaluations from a guess and leaves
+#: errors of 0.01; a whole solve takes 60 to 100. With 1e-4 it takes half as many evaluations again,
+#: and more of these shapes are the better choice: in the same time, a Spot with a new tail has an
+#: error of 0.017 instead of 0.020.
+TOLERANCE = 1e-3
+#: Limit of the iterations of each, wherever the guess is.
+MOST_ITERATIONS = 100
+#: Fewest shapes near solutions for each parameter, and their share of those of the old model. With
+#: two thirds as many, models are made in nine tenths of the time, and their errors are larger by a
+#: fourth to a half.
+SHAPES_A_PARAMETER, SHARE = 12, 0.75
 
 
 class OldModel:
@@ -41,6 +55,9 @@ class OldModel:
 
     def __init__(self, model: PosingModel, problem: PosingProblem, *, most: int) -> None:
         self._model, self._problem, self._most = model, problem, most
+        # with 209 dimensions the guesses of an Armadillo take three times as long, and its model is
+        # no better
+        self._guessing = model.leading(min(model.dimension, MOST_DIMENSIONS))
         old = {handle.vertices.tobytes() for handle in model.problem.handles}
         kept = [h for h, one in enumerate(problem.handles) if one.vertices.tobytes() in old]
         #: Indices of the problem's handles that the model has as well; the first one is fixed.
@@ -49,8 +66,8 @@ class OldModel:
 
     @property
     def dimension(self) -> int:
-        """Dimension of the old model."""
-        return self._model.dimension
+        """Dimension of the old model, or less where handles were removed."""
+        return round(_share(self._model, self._problem) * self._model.dimension)
 
     @cached_property
     def shapes(self) -> Snapshots:
@@ -65,14 +82,20 @@ class OldModel:
         return carry_over(_guessed(model.problem, parameters, rows), self._problem)
 
     def near_solutions(self, parameters: FloatArray, *, threads: int | None) -> Snapshots:
-        """Shapes near the solutions for samples (k, p): guesses plus some solver steps."""
+        """Shapes near the solutions for samples (k, p): solved loosely, from guesses."""
         problem = self._problem
         _ = problem.system  # before threads ask for it
         finish_modes = begin_abandonable(problem.solving.soft_modes)
         starts = self.guesses(parameters, threads=threads)
-        ends = after_steps(
-            problem, parameters, starts, steps=STEPS, modes=finish_modes(), threads=threads
+        finish_modes()
+        loose = solve_snapshots(
+            problem,
+            parameters,
+            options=SolverOptions(tolerance=TOLERANCE, max_iterations=MOST_ITERATIONS),
+            threads=threads,
+            predictions=Predictions(starts),
         )
+        ends = np.array(list(loose.displacements))
         lost = ~np.isfinite(ends).all(axis=1)
         ends[lost] = starts[lost]
         return _guessed(problem, parameters, ends)
@@ -130,10 +153,10 @@ class OldModel:
         columns : which of the problem's parameters belong to these handles
         """
         return replace(
-            self._model,
+            self._guessing,
             problem=problem,
-            handles=handle_quadric(problem, self._model.subspace),
-            training_coordinates=self._model.training_coordinates[: self._most],
+            handles=handle_quadric(problem, self._guessing.subspace),
+            training_coordinates=self._guessing.training_coordinates[: self._most],
             training_parameters=np.ascontiguousarray(self.shapes.parameters[:, columns]),
         )
 
@@ -148,12 +171,17 @@ def _guessed(problem: PosingProblem, parameters: FloatArray, rows: FloatArray) -
 def usual_shapes(model: PosingModel, problem: PosingProblem) -> int:
     """How many shapes near solutions a first model takes.
 
-    Eight for each parameter, and at least half as many as the old model has, or less where handles
-    were removed: some bodies take more than others.
+    Twelve for each parameter, and at least three quarters of those that the old model has, or less
+    where handles were removed: some bodies take more than others.
     """
-    count, before = problem.parameter_count, model.problem.parameter_count
-    known = len(model.training_parameters) * min(count, before) // (2 * before)
-    return max(SHAPES_A_PARAMETER * count, known)
+    known = SHARE * _share(model, problem) * len(model.training_parameters)
+    return max(SHAPES_A_PARAMETER * problem.parameter_count, round(known))
+
+
+def _share(model: PosingModel, problem: PosingProblem) -> float:
+    """Share of the model's parameters that the problem has as well, by their number."""
+    before = model.problem.parameter_count
+    return min(problem.parameter_count, before) / before
 
 
 def check_start(model: Any, problem: Any) -> None:

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import os
-from concurrent.futures import ThreadPoolExecutor
-from itertools import pairwise
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 from scipy.linalg.lapack import dposv
 
 from ..blas import single_threaded_blas
+from .chosen_columns import ChosenColumns
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.intp]
@@ -20,8 +17,6 @@ IndexArray = NDArray[np.intp]
 BATCH = 0.1
 #: Share that may be missing at the end: the last columns would take as many rounds as all others.
 MISSING = 0.02
-#: Columns whose products are computed together.
-PART = 512
 #: Added to the diagonal of the scaled normal equations: nearly equal columns share a weight.
 RIDGE = 1e-9
 
@@ -61,14 +56,14 @@ def nonnegative_fit(
     weights : (r,)
         Their weights, > 0.
     """
-    fit = _Columns(columns, target, count)
+    fit = ChosenColumns(columns, target, count, threads=threads)
     chosen: IndexArray = np.zeros(0, np.intp)
     weights: FloatArray = np.zeros(0)
     residual = target
     batch = max(1, round(BATCH * count))
     best = np.inf
     while count - len(chosen) > MISSING * count:
-        products = fit.products(residual, threads)
+        products = fit.candidate_products(residual)
         products[chosen] = 0.0
         fresh = _largest(products, min(batch, count - len(chosen)))
         chosen = np.concatenate([chosen, fresh])
@@ -78,7 +73,7 @@ def nonnegative_fit(
         kept = weights > 0
         chosen, weights = chosen[kept], weights[kept]
         fit.keep(kept)
-        residual = target - fit.sums(weights)
+        residual = fit.residual(weights)
         error = float(np.linalg.norm(residual))
         if len(fresh) == 0 or not error < best * (1 - 1e-6):
             break
@@ -88,62 +83,6 @@ def nonnegative_fit(
         chosen, weights = chosen[weights > 0], weights[weights > 0]
     order = np.argsort(chosen)
     return chosen[order], weights[order]
-
-
-class _Columns:
-    """The chosen columns in double precision, with their products, in preallocated memory."""
-
-    def __init__(self, columns: NDArray[np.float32], target: FloatArray, count: int) -> None:
-        most = min(2 * count, len(columns)) + 1
-        self._columns, self._target = columns, target
-        self._own = np.empty((most, len(target)))
-        self._gram = np.empty((most, most))
-        self._moments = np.empty(most)
-        self._count = 0
-
-    @property
-    def gram(self) -> FloatArray:
-        """Products of the chosen columns with each other."""
-        return self._gram[: self._count, : self._count]
-
-    @property
-    def moments(self) -> FloatArray:
-        """Their products with the target."""
-        return self._moments[: self._count]
-
-    def products(self, residual: FloatArray, threads: int | None) -> NDArray[np.float32]:
-        """Products (c,) of all columns with a residual, bitwise the same in any partition."""
-        workers = threads or os.cpu_count() or 1
-        vector = residual.astype(np.float32)
-        edges = np.arange(0, len(self._columns) + PART, PART)
-        parts = [slice(a, b) for a, b in pairwise(edges)]
-        with ThreadPoolExecutor(max_workers=workers) as pool:
-            found = list(pool.map(lambda part: self._columns[part] @ vector, parts))
-        return np.concatenate(found)
-
-    def add(self, fresh: IndexArray) -> None:
-        """Adds columns."""
-        old, new = slice(0, self._count), slice(self._count, self._count + len(fresh))
-        self._count += len(fresh)
-        self._own[new] = self._columns[fresh]
-        self._gram[new, old] = self._own[new] @ self._own[old].T
-        self._gram[old, new] = self._gram[new, old].T
-        self._gram[new, new] = self._own[new] @ self._own[new].T
-        self._moments[new] = self._own[new] @ self._target
-
-    def keep(self, kept: NDArray[np.bool_]) -> None:
-        """Removes the columns outside a mask."""
-        if kept.all():
-            return
-        places = np.flatnonzero(kept)
-        self._own[: len(places)] = self._own[places]
-        self._gram[: len(places), : len(places)] = self._gram[np.ix_(places, places)]
-        self._moments[: len(places)] = self._moments[places]
-        self._count = len(places)
-
-    def sums(self, weights: FloatArray) -> FloatArray:
-        """The weighted sum of the chosen columns, (k,)."""
-        return weights @ self._own[: self._count]
 
 
 def nonnegative_weights(
@@ -160,7 +99,9 @@ def nonnegative_weights(
     Columns that would become negative are likely to leave next, so they are solved for together.
     """
     scale = 1.0 / np.sqrt(np.diag(gram))
-    matrix = gram * scale[:, None] * scale + RIDGE * np.eye(len(gram))
+    matrix = gram * scale[:, None]
+    matrix *= scale
+    matrix.flat[:: len(gram) + 1] += RIDGE
     moments, x = moments * scale, start / scale
     factor = cho_factor(matrix, check_finite=False)
     unbound = cho_solve(factor, moments, check_finite=False)

@@ -1,13 +1,12 @@
 """Greedy sampling: the next samples are those where the current model is worst."""
 
 from .batch_checkpoints import batch_checkpoint, finished_samples, greedy_key
-from .error_estimates import after_steps, estimated_errors
+from .error_estimates import estimated_errors
 from .greedy_snapshots import BATCH, CANDIDATES, check_target, greedy_snapshots
 
 __all__ = [
     "BATCH",
     "CANDIDATES",
-    "after_steps",
     "batch_checkpoint",
     "check_target",
     "estimated_errors",

@@ -64,7 +64,7 @@ def estimated_errors(
     """
     problem = model.problem
     starts = reduced_solutions(model, parameters)
-    ends = after_steps(problem, parameters, starts, steps=steps, single=single, threads=threads)
+    ends = _after_steps(problem, parameters, starts, steps=steps, single=single, threads=threads)
     errors = np.zeros(starts.shape)
     for error, shape, start in zip(errors, ends, starts, strict=True):
         if np.isfinite(shape).all():
@@ -73,20 +73,16 @@ def estimated_errors(
     return errors
 
 
-def after_steps(
+def _after_steps(
     problem: Problem,
     parameters: FloatArray,
     starts: FloatArray,
     *,
     steps: int,
-    single: bool = True,
-    modes: core.SoftModes | None = None,
-    threads: int | None = None,
+    single: bool,
+    threads: int | None,
 ) -> FloatArray:
-    """Displacements (k, 3n) after `steps` L-BFGS iterations from `starts`; some may not be finite.
-
-    modes : soft modes for its seed, useful far from the solution
-    """
+    """Displacements (k, 3n) after L-BFGS iterations from `starts`; some may not be finite."""
     inputs = problem.inputs(parameters)
 
     def solve(control: core.SolveControl) -> Any:
@@ -98,7 +94,6 @@ def after_steps(
             threads=threads or 0,
             control=control,
             single=single,
-            modes=modes,
         )
 
     batch, interrupted = run_interruptible(solve, lambda finished: None)

@@ -13,8 +13,6 @@ from snapspace import InterpolationModel
 from .pages import OpenPage, Page, Tabs
 from .test_blending_page import assert_shown
 
-
-
 #: Rest takes part alone, and then the two others that take part at first. One pose must stay.
 AT_FIRST = """(() => {
   const pose = (name) => document.querySelector(`[title='${name}']`);

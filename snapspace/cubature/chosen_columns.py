@@ -1,0 +1,100 @@
+"""ChosenColumns: the columns that a nonnegative fit has chosen, with their products."""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.intp]
+
+#: Columns whose products are computed together, of all candidates and of those that were chosen.
+PART, CHOSEN_PART = 512, 128
+
+
+class ChosenColumns:
+    """Some of the candidate columns in double precision, and their products with each other.
+
+    A column stays in its row of the memory until it is removed, and then another one takes the row:
+    to move rows together would take as long as their products. All sums are the same in any number
+    of threads.
+
+    Parameters
+    ----------
+    columns : (c, k) float32
+        The candidates, each contiguous.
+    target : (k,)
+        The vector to fit.
+    most : int
+        The most columns that are chosen at the same time.
+    threads : int, optional
+        Default: all.
+    """
+
+    def __init__(
+        self,
+        columns: NDArray[np.float32],
+        target: FloatArray,
+        most: int,
+        *,
+        threads: int | None = None,
+    ) -> None:
+        most = min(most, len(columns))
+        self._columns, self._target = columns, target
+        self._workers = threads or os.cpu_count() or 1
+        self._own = np.zeros((most, len(target)))
+        self._products = np.empty((most, most))
+        self._moments = np.empty(most)
+        self._rows: IndexArray = np.zeros(0, np.intp)  # of the chosen columns
+        self._free: IndexArray = np.arange(most)  # rows of no column
+
+    @property
+    def gram(self) -> FloatArray:
+        """Products of the chosen columns with each other."""
+        return self._products[np.ix_(self._rows, self._rows)]
+
+    @property
+    def moments(self) -> FloatArray:
+        """Their products with the target."""
+        return self._moments[self._rows]
+
+    def candidate_products(self, residual: FloatArray) -> NDArray[np.float32]:
+        """Products (c,) of all candidates with a residual."""
+        vector = residual.astype(np.float32)
+        starts = range(0, len(self._columns), PART)
+        with ThreadPoolExecutor(max_workers=self._workers) as pool:
+            found = list(pool.map(lambda at: self._columns[at : at + PART] @ vector, starts))
+        return np.concatenate(found)
+
+    def add(self, fresh: IndexArray) -> None:
+        """Adds candidates after those that are chosen."""
+        if not len(fresh):
+            return
+        new, self._free = self._free[: len(fresh)], self._free[len(fresh) :]
+        self._rows = np.concatenate([self._rows, new])
+        columns = self._columns[fresh].astype(np.float64)
+        self._own[new] = columns
+        self._moments[new] = columns @ self._target
+        used = int(self._rows.max(initial=-1)) + 1  # products with free rows mean nothing
+        parts = [slice(at, min(at + CHOSEN_PART, used)) for at in range(0, used, CHOSEN_PART)]
+        with ThreadPoolExecutor(max_workers=self._workers) as pool:
+            products = np.concatenate(
+                list(pool.map(lambda part: self._own[part] @ columns.T, parts))
+            )
+        self._products[:used, new] = products
+        self._products[new, :used] = products.T
+
+    def keep(self, kept: NDArray[np.bool_]) -> None:
+        """Removes the chosen columns outside a mask."""
+        self._free = np.sort(np.concatenate([self._free, self._rows[~kept]]))
+        self._rows = self._rows[kept]
+
+    def residual(self, weights: FloatArray) -> FloatArray:
+        """The target less the weighted sum of the chosen columns, (k,)."""
+        used = int(self._rows.max(initial=-1)) + 1
+        by_row = np.zeros(used)
+        by_row[self._rows] = weights
+        return self._target - by_row @ self._own[:used]
