@@ -58,8 +58,8 @@ def growing_models(
     """Yields the models that `accurate_model` finds on its way to the last one.
 
     The first one is an impression of a few loosely solved samples, which are starting points for
-    later solves. With `start`, a model of other handles, the first one is as good as most models
-    made from scratch. All others are judged by held-out samples, and each is better than those
+    later solves. With `start`, a model of other handles, the first one is far better than that, see
+    `accurate_model`. All others are judged by held-out samples, and each is better than those
     before it.
 
     Parameters

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,11 +64,7 @@ class ChosenColumns:
 
     def candidate_products(self, residual: FloatArray) -> NDArray[np.float32]:
         """Products (c,) of all candidates with a residual."""
-        vector = residual.astype(np.float32)
-        starts = range(0, len(self._columns), PART)
-        with ThreadPoolExecutor(max_workers=self._workers) as pool:
-            found = list(pool.map(lambda at: self._columns[at : at + PART] @ vector, starts))
-        return np.concatenate(found)
+        return self._in_parts(self._columns, residual.astype(np.float32), PART)
 
     def add(self, fresh: IndexArray) -> None:
         """Adds candidates after those that are chosen."""
@@ -78,14 +75,10 @@ class ChosenColumns:
         columns = self._columns[fresh].astype(np.float64)
         self._own[new] = columns
         self._moments[new] = columns @ self._target
-        used = int(self._rows.max(initial=-1)) + 1  # products with free rows mean nothing
-        parts = [slice(at, min(at + CHOSEN_PART, used)) for at in range(0, used, CHOSEN_PART)]
-        with ThreadPoolExecutor(max_workers=self._workers) as pool:
-            products = np.concatenate(
-                list(pool.map(lambda part: self._own[part] @ columns.T, parts))
-            )
-        self._products[:used, new] = products
-        self._products[new, :used] = products.T
+        # products with rows of no column mean nothing
+        products = self._in_parts(self._own[: self._used], columns.T, CHOSEN_PART)
+        self._products[: self._used, new] = products
+        self._products[new, : self._used] = products.T
 
     def keep(self, kept: NDArray[np.bool_]) -> None:
         """Removes the chosen columns outside a mask."""
@@ -94,7 +87,17 @@ class ChosenColumns:
 
     def residual(self, weights: FloatArray) -> FloatArray:
         """The target less the weighted sum of the chosen columns, (k,)."""
-        used = int(self._rows.max(initial=-1)) + 1
-        by_row = np.zeros(used)
+        by_row = np.zeros(self._used)
         by_row[self._rows] = weights
-        return self._target - by_row @ self._own[:used]
+        return self._target - by_row @ self._own[: self._used]
+
+    @property
+    def _used(self) -> int:
+        """Number of rows up to the last one of a chosen column."""
+        return int(self._rows.max(initial=-1)) + 1
+
+    def _in_parts(self, rows: NDArray[Any], others: NDArray[Any], part: int) -> NDArray[Any]:
+        """rows @ others, so many rows at a time, on all threads."""
+        starts = range(0, len(rows), part)
+        with ThreadPoolExecutor(max_workers=self._workers) as pool:
+            return np.concatenate([*pool.map(lambda at: rows[at : at + part] @ others, starts)])
