@@ -69,7 +69,7 @@ sanitize: setup
 
 # Gives every reader mutated files, the same in every run.
 fuzz: setup
-	$(BIN)/python -m fuzz --seconds 240 --executions 6000
+	$(BIN)/python -m fuzz --seconds 240 --executions 4000
 
 # Builds the site, build/docs/index.html. Warnings are errors.
 docs: setup
