@@ -10,31 +10,55 @@ from numpy.typing import NDArray
 lane_count: int
 
 class VertexStars:
-    """The stars of a surface's vertices, elements of its ARAP energy."""
+    """The stars of a surface, elements of its ARAP energy."""
 
     def corners(self) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
         """
-        First corners (n + 1,), vertices (c,) and gradients (c, 3): the gradient of a star is the sum of u (x) gradient over its corners.
+        First corners (s + 1,), vertices (c,) and gradients (c, 3): the gradient of a star is the sum of u (x) gradient over its corners.
+        """
+
+    def triangles(self) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
+        """
+        First triangles (s + 1,), triangles (t,) and shares (t,): a triangle's weight in a star is the share of a third of its area times its modulus.
         """
 
     def numbers(self) -> NDArray[numpy.float64]:
-        """Rows of the density "shell-arap" (n, 12), of modulus one."""
+        """Rows of the density "shell-arap" (s, 12), of modulus one."""
 
     def areas(self) -> NDArray[numpy.float64]:
-        """A third of the area around each vertex, (n,)."""
+        """Sums of the hats times a third of the area around each vertex, (s,)."""
 
     def weights(self) -> NDArray[numpy.float64]:
-        """The same of areas times moduli, (n,)."""
+        """The same of areas times moduli, (s,)."""
 
-    def remainder(self) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
+    def couplings(self) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
         """
-        The quadratic part of the energy: a symmetric matrix (n, n), row by row.
+        First neighbours (n + 1,), vertices (e,) and couplings (e,): the Dirichlet energy is the sum of coupling * u_i . (u_j - u_i) over all vertices and their neighbours.
         """
+
+class StarHats:
+    """Weights of the vertices in the stars of a surface, which sum to one."""
+
+    def __len__(self) -> int: ...
+
+    def rows(self) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
+        """
+        First places (s + 1,), vertices (w,), first the center, and weights (w,).
+        """
+
+    def __getstate__(self) -> tuple[list[int], list[int], list[float]]: ...
+
+    def __setstate__(self, arg: tuple[Sequence[int], Sequence[int], Sequence[float]], /) -> None: ...
+
+def star_hats(shapes: NDArray[numpy.float64], triangles: NDArray[numpy.int32], radius: float) -> StarHats:
+    """
+    Stars whose centers are at least a radius apart along edges, and less than that from every vertex.
+    """
 
 class Material:
     """A density, given by its name, with moduli (1, k) or one row per tet."""
 
-    def __init__(self, kind: str, moduli: NDArray[numpy.float64]) -> None: ...
+    def __init__(self, kind: str, moduli: NDArray[numpy.float64], hats: StarHats | None = None) -> None: ...
 
     @property
     def kind(self) -> str: ...

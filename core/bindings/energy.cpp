@@ -1,9 +1,12 @@
+#include <optional>
+
 #include "bindings/arrays.h"
 #include "bindings/released_gil.h"
 #include "energy/block_hessian.h"
 #include "energy/elastic_energy.h"
 #include "energy/shell_poses.h"
 #include "lanes/in_lanes.h"
+#include "mesh/star_hats.h"
 
 namespace snapspace {
 
@@ -47,16 +50,54 @@ std::pair<DoublesOut, DoublesOut> in_lanes(const ElasticEnergy& self, const Matr
   return {values, gradients};
 }
 
+void bind_star_hats(nb::module_& m) {
+  nb::class_<StarHats>(m, "StarHats",
+                       "Weights of the vertices in the stars of a surface, which sum to one.")
+      .def("__len__", &StarHats::count)
+      .def(
+          "rows",
+          [](const StarHats& self) {
+            return std::make_tuple(copy_to_array(self.first.data(), {self.first.size()}),
+                                   copy_to_array(self.vertices.data(), {self.vertices.size()}),
+                                   copy_to_array(self.weights.data(), {self.weights.size()}));
+          },
+          "First places (s + 1,), vertices (w,), first the center, and weights (w,).")
+      .def("__getstate__",
+           [](const StarHats& self) {
+             return std::make_tuple(self.first, self.vertices, self.weights);
+           })
+      .def("__setstate__",
+           [](StarHats& self, const std::tuple<std::vector<std::int32_t>, std::vector<std::int32_t>,
+                                               std::vector<double>>& rows) {
+             new (&self) StarHats{std::get<0>(rows), std::get<1>(rows), std::get<2>(rows)};
+           });
+  m.def(
+      "star_hats",
+      [](TensorIn shapes, IndexMatrixIn triangles, double radius) {
+        require(shapes.shape(0) >= 1 && shapes.shape(2) == 3 && triangles.shape(1) == 3,
+                "needs shapes (k, n, 3) and triangles (m, 3)");
+        require_below(triangles, shapes.shape(1), "a triangle has a vertex index out of range");
+        const ReleasedGil released;
+        return star_hats(shapes.data(), static_cast<int>(shapes.shape(0)),
+                         static_cast<int>(shapes.shape(1)), triangles.data(),
+                         static_cast<int>(triangles.shape(0)), radius);
+      },
+      nb::arg("shapes"), nb::arg("triangles").noconvert(), nb::arg("radius"),
+      "Stars whose centers are at least a radius apart along edges, and less than that from every "
+      "vertex.");
+}
+
 void bind_material(nb::module_& m) {
   nb::class_<MaterialField>(m, "Material",
                             "A density, given by its name, with moduli (1, k) or one row per tet.")
       .def(
           "__init__",
-          [](MaterialField* self, const std::string& kind, MatrixIn moduli) {
+          [](MaterialField* self, const std::string& kind, MatrixIn moduli,
+             const std::optional<StarHats>& hats) {
             new (self) MaterialField(kind.c_str(), {moduli.data(), moduli.data() + moduli.size()},
-                                     static_cast<int>(moduli.shape(0)));
+                                     static_cast<int>(moduli.shape(0)), hats.value_or(StarHats()));
           },
-          nb::arg("kind"), nb::arg("moduli"))
+          nb::arg("kind"), nb::arg("moduli"), nb::arg("hats") = nb::none())
       .def_prop_ro("kind", &MaterialField::name)
       .def_prop_ro("rows", &MaterialField::rows);
   m.def(
@@ -89,10 +130,11 @@ void bind_material(nb::module_& m) {
         const std::vector<MaterialField> materials = shell_pose_materials(
             poses.data(), static_cast<int>(poses.shape(0)), static_cast<int>(poses.shape(1)),
             elements.data(), static_cast<int>(count),
-            {index, static_cast<int>(count), rows.data()});
+            {kind.c_str(), std::move(rows), static_cast<int>(count)});
         DoublesOut result = new_array<double>({poses.shape(0), count, kCount});
         for (std::size_t k = 0; k < materials.size(); ++k)
-          std::copy_n(materials[k].view().moduli, rows.size(), result.data() + k * rows.size());
+          std::copy_n(materials[k].view().moduli, kCount * count,
+                      result.data() + k * kCount * count);
         return result;
       },
       nb::arg("poses"), nb::arg("elements").noconvert(), nb::arg("kind"), nb::arg("moduli"),
@@ -110,6 +152,7 @@ void bind_material(nb::module_& m) {
 }  // namespace
 
 void bind_energy(nb::module_& m) {
+  bind_star_hats(m);
   bind_material(m);
   nb::class_<ElasticEnergy>(
       m, "ElasticEnergy",

@@ -5,8 +5,7 @@
 namespace snapspace {
 
 void bind_stars(nb::module_& m) {
-  nb::class_<VertexStars>(m, "VertexStars",
-                          "The stars of a surface's vertices, elements of its ARAP energy.")
+  nb::class_<VertexStars>(m, "VertexStars", "The stars of a surface, elements of its ARAP energy.")
       .def(
           "corners",
           [](const VertexStars& self) {
@@ -15,8 +14,19 @@ void bind_stars(nb::module_& m) {
                 copy_to_array(self.corners.data(), {self.corners.size()}),
                 copy_to_array(self.gradients.data(), {self.corners.size(), 3}));
           },
-          "First corners (n + 1,), vertices (c,) and gradients (c, 3): the gradient of a star is "
+          "First corners (s + 1,), vertices (c,) and gradients (c, 3): the gradient of a star is "
           "the sum of u (x) gradient over its corners.")
+      .def(
+          "triangles",
+          [](const VertexStars& self) {
+            return std::make_tuple(
+                copy_to_array(self.first_triangle.data(), {self.first_triangle.size()}),
+                copy_to_array(self.triangles.data(), {self.triangles.size()}),
+                copy_to_array(self.shares.data(), {self.shares.size()}));
+          },
+          "First triangles (s + 1,), triangles (t,) and shares (t,): a triangle's weight in a star "
+          "is "
+          "the share of a third of its area times its modulus.")
       .def(
           "numbers",
           [](const VertexStars& self) {
@@ -27,30 +37,30 @@ void bind_stars(nb::module_& m) {
               self.write_numbers(static_cast<int>(star), rows.data() + kCount * star);
             return rows;
           },
-          "Rows of the density \"shell-arap\" (n, 12), of modulus one.")
+          "Rows of the density \"shell-arap\" (s, 12), of modulus one.")
       .def(
           "areas",
           [](const VertexStars& self) {
             return copy_to_array(self.areas.data(), {self.areas.size()});
           },
-          "A third of the area around each vertex, (n,).")
+          "Sums of the hats times a third of the area around each vertex, (s,).")
       .def(
           "weights",
           [](const VertexStars& self) {
             return copy_to_array(self.weights.data(), {self.weights.size()});
           },
-          "The same of areas times moduli, (n,).")
+          "The same of areas times moduli, (s,).")
       .def(
-          "remainder",
+          "couplings",
           [](const VertexStars& self) {
-            const Eigen::SparseMatrix<double> Q = self.remainder();
-            const auto size = static_cast<std::size_t>(Q.cols()) + 1;
-            const auto entries = static_cast<std::size_t>(Q.nonZeros());
-            return std::make_tuple(copy_to_array(Q.outerIndexPtr(), {size}),
-                                   copy_to_array(Q.innerIndexPtr(), {entries}),
-                                   copy_to_array(Q.valuePtr(), {entries}));
+            return std::make_tuple(
+                copy_to_array(self.first_neighbour.data(), {self.first_neighbour.size()}),
+                copy_to_array(self.neighbours.data(), {self.neighbours.size()}),
+                copy_to_array(self.couplings.data(), {self.couplings.size()}));
           },
-          "The quadratic part of the energy: a symmetric matrix (n, n), row by row.");
+          "First neighbours (n + 1,), vertices (e,) and couplings (e,): the Dirichlet energy is "
+          "the "
+          "sum of coupling * u_i . (u_j - u_i) over all vertices and their neighbours.");
 }
 
 }  // namespace snapspace

@@ -31,7 +31,7 @@ BlendedEnergy::BlendedEnergy(const double* poses, int count, int vertex_count,
                              const MaterialField& material) {
   const bool shell = is_of_shells(material.view().kind);
   const std::vector<MaterialField> materials =
-      shell ? shell_pose_materials(poses, count, vertex_count, tets, tet_count, material.view())
+      shell ? shell_pose_materials(poses, count, vertex_count, tets, tet_count, material)
             : std::vector<MaterialField>(count, material);
   const std::size_t size = 3 * static_cast<std::size_t>(vertex_count);
   for (int k = 0; k < count; ++k) {
@@ -114,8 +114,8 @@ Sum<Real> BlendedEnergy::tet_value_and_stress(int tet, const Real* blend, const 
   }
 }
 
-/// Energy of some stars; adds its gradient to `gradient`. A single sample is a lane of a narrow
-/// pack: it has the same bits in lanes and alone.
+/// Energy of some vertices and of the stars centered there; adds its gradient to `gradient`. A
+/// single sample is a lane of a narrow pack: it has the same bits in lanes and alone.
 template <class Real>
 Sum<Real> BlendedEnergy::add_stars(const Real* blend, const Real* u, Real* gradient, int begin,
                                    int end) const {
@@ -131,11 +131,12 @@ Sum<Real> BlendedEnergy::add_stars(const Real* blend, const Real* u, Real* gradi
   } else {
     std::vector<Real> shape(size()), forces(size());
     Sum<Real> energy(0.0);
+    const int first = stars_->first_star(begin), last = stars_->first_star(end);
     for (int k = 0; k < poses(); ++k) {
       for (int i = 0; i < size(); ++i) shape[i] = u[i] + Real(offsets_[k][i]);
       std::fill(forces.begin(), forces.end(), Real(0.0));
       energy += widened(blend[k]) *
-                energies_[k].add_value_and_gradient(begin, end, shape.data(), forces.data());
+                energies_[k].add_value_and_gradient(first, last, shape.data(), forces.data());
       for (int i = 0; i < size(); ++i) gradient[i] += blend[k] * forces[i];
     }
     return energy;

@@ -27,7 +27,10 @@ class BlendedEnergy {
 
   [[nodiscard]] int poses() const { return static_cast<int>(energies_.size()); }
   [[nodiscard]] int size() const { return 3 * energies_[0].rest.vertex_count; }
-  [[nodiscard]] int tets() const { return energies_[0].elements(); }
+  /// Number of tets, or of vertices if there are stars.
+  [[nodiscard]] int tets() const {
+    return stars_ ? energies_[0].rest.vertex_count : energies_[0].tets();
+  }
   /// E_k, which takes displacements from pose k.
   [[nodiscard]] const ElasticEnergy& energy(int pose) const { return energies_[pose]; }
   /// Pose 0 minus this pose, 3n: it is added to u for E_k.

@@ -45,7 +45,7 @@ ElasticEnergy::ElasticEnergy(RestShape shape, MaterialField field)
     negligible_ += 1e-24 * volume * lame.mu;
   }
   single_moduli_.assign(moduli_.begin(), moduli_.end());
-  if (is_of_stars(view.kind)) stars.emplace(rest, view);
+  if (is_of_stars(view.kind)) stars.emplace(rest, view, material.hats());
 }
 
 double ElasticEnergy::value_and_gradient(const double* u, double* gradient,

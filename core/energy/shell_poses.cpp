@@ -11,7 +11,8 @@ namespace snapspace {
 
 std::vector<MaterialField> shell_pose_materials(const double* poses, int count, int vertex_count,
                                                 const std::int32_t* elements, int element_count,
-                                                const TetMaterial& material) {
+                                                const MaterialField& field) {
+  const TetMaterial material = field.view();
   const int width = material_moduli(material.kind), moduli = scaled_moduli(material.kind);
   const auto vertices_of = [&](int pose) {
     return poses + 3 * static_cast<std::size_t>(pose) * vertex_count;
@@ -37,7 +38,7 @@ std::vector<MaterialField> shell_pose_materials(const double* poses, int count, 
                      products[e], row);
       std::copy_n(row, width, rows.data() + static_cast<std::size_t>(e) * width);
     }
-    result.emplace_back(material_name(material.kind), std::move(rows), element_count);
+    result.emplace_back(material_name(material.kind), std::move(rows), element_count, field.hats());
   }
   return result;
 }

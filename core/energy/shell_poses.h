@@ -10,11 +10,12 @@ namespace snapspace {
 /// same in all poses, and so is the product of areas at which a hinge has its whole stiffness: the
 /// geometric mean of those in the poses. One pose has its own.
 /// @param poses   count x n x 3   @param elements  m x 4, triangles and hinges
-/// @param material  of the elements; only its moduli are read, not its numbers of the rest shape
+/// @param field  of the elements; only its moduli and its hats are read, not its numbers of the
+/// rest shape
 [[nodiscard]] std::vector<MaterialField> shell_pose_materials(const double* poses, int count,
                                                               int vertex_count,
                                                               const std::int32_t* elements,
                                                               int element_count,
-                                                              const TetMaterial& material);
+                                                              const MaterialField& field);
 
 }  // namespace snapspace

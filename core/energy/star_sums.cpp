@@ -17,11 +17,11 @@ void load(const T* numbers, Real M[3][3]) {
 template <class Real>
 void VertexStars::gradient_of(int star, const Real* u, Real H[3][3]) const {
   using T = typename ScalarOf<Real>::type;
-  const Real* const u0 = u + 3 * static_cast<std::size_t>(star);
+  const Real* const u0 = u + 3 * static_cast<std::size_t>(center(star));
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) H[r][c] = Real(T(0));
   const T* gradient = numbers<T>().gradients.data();
-  // the first corner is the star's vertex
+  // the first corner is the center
   for (int k = first_corner[star] + 1; k < first_corner[star + 1]; ++k) {
     const Real* const uk = u + 3 * static_cast<std::size_t>(corners[k]);
     const T* const g = gradient + 3 * static_cast<std::size_t>(k);
@@ -46,12 +46,13 @@ Sum<Real> VertexStars::add_stars(int begin, int end, const Real* u, Real* gradie
     gradient_of(star, u, H);
     turn(star, L, H, W);
     Real sum(T(0));
-    for (int k = first_triangle_[star]; k < first_triangle_[star + 1]; ++k) {
-      const Triangle<T>& t = all.triangles[triangles_[k]];
+    for (int k = first_triangle[star]; k < first_triangle[star + 1]; ++k) {
+      const Triangle<T>& t = all.triangles[triangles[k]];
       const std::size_t a = 3 * static_cast<std::size_t>(t.vertices[0]),
                         b = 3 * static_cast<std::size_t>(t.vertices[1]),
                         c = 3 * static_cast<std::size_t>(t.vertices[2]);
-      const Real weight(t.weight), twice(t.weight + t.weight);
+      const T share = all.shares[k] * t.weight;
+      const Real weight(share), twice(share + share);
       for (int r = 0; r < 3; ++r) {
         const Real first = u[b + r] - u[a + r], second = u[c + r] - u[a + r];
         Real x = first * Real(t.first[0]), y = first * Real(t.first[1]);

@@ -4,9 +4,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "material/shell_arap.h"
-#include "mesh/incidence.h"
 
 namespace snapspace {
 
@@ -25,14 +25,16 @@ Eigen::Matrix<double, 3, 2> tangents(const double* row) {
 /// Stops of a pass over the stars, as `sweep_stops` makes them for tets.
 std::vector<SweepStop> star_stops(const std::vector<std::int32_t>& first_corner,
                                   const std::vector<std::int32_t>& corners, int vertex_count) {
-  constexpr int kStarsPerStop = 32;
+  constexpr int kCornersPerStop = 224;
+  const auto count = static_cast<int>(first_corner.size()) - 1;
   std::vector<SweepStop> stops;
   std::int32_t reached = 0;
-  for (int star = 0; star < vertex_count; star += kStarsPerStop) {
-    const std::int32_t end = std::min(star + kStarsPerStop, vertex_count);
-    for (int c = first_corner[star]; c < first_corner[end]; ++c)
+  for (int star = 0, last = 0; star < count; ++star) {
+    for (int c = first_corner[star]; c < first_corner[star + 1]; ++c)
       reached = std::max(reached, corners[c] + 1);
-    stops.push_back({end, reached, vertex_count});
+    if (first_corner[star + 1] - first_corner[last] < kCornersPerStop && star + 1 < count) continue;
+    stops.push_back({star + 1, reached, vertex_count});
+    last = star + 1;
   }
   stops.back().reached = vertex_count;
   std::int32_t complete = vertex_count;
@@ -47,8 +49,7 @@ std::vector<SweepStop> star_stops(const std::vector<std::int32_t>& first_corner,
 
 }  // namespace
 
-VertexStars::VertexStars(const RestShape& rest, const TetMaterial& material)
-    : weights(rest.vertex_count, 0.0), areas(rest.vertex_count, 0.0) {
+VertexStars::VertexStars(const RestShape& rest, const TetMaterial& material, const StarHats& hats) {
   const auto count = rest.tets.size();
   double_.triangles.resize(count);
   for (std::size_t t = 0; t < count; ++t) {
@@ -62,22 +63,20 @@ VertexStars::VertexStars(const RestShape& rest, const TetMaterial& material)
       for (int c = 0; c < 2; ++c) triangle.frame[r][c] = frame(r, c);
     triangle.weight = tet.volume * row[0] / 3.0;
     std::copy_n(tet.vertices, 3, triangle.vertices);
-    for (const std::int32_t vertex : triangle.vertices) {
-      weights[vertex] += triangle.weight;
-      areas[vertex] += tet.volume / 3.0;
-    }
   }
   const Incidence incidence(rest.vertex_count, static_cast<int>(count),
                             [&](int t, int k) { return rest.tets[t].vertices[k]; });
-  first_triangle_.push_back(0);
-  for (std::int32_t vertex = 0; vertex < rest.vertex_count; ++vertex) {
-    const auto around = incidence.around(vertex);
-    triangles_.insert(triangles_.end(), around.begin(), around.end());
-    first_triangle_.push_back(static_cast<std::int32_t>(triangles_.size()));
-  }
-  find_corners(rest.vertex_count);
+  find_triangles(incidence, rest.vertex_count, hats);
+  find_couplings(incidence, rest.vertex_count);
+  weights.assign(first_triangle.size() - 1, 0.0);
+  areas.assign(weights.size(), 0.0);
+  for (int star = 0; star < this->count(); ++star)
+    for (int k = first_triangle[star]; k < first_triangle[star + 1]; ++k) {
+      weights[star] += shares[k] * double_.triangles[triangles[k]].weight;
+      areas[star] += shares[k] * rest.tets[triangles[k]].volume / 3.0;
+    }
+  find_corners();
   stops = star_stops(first_corner, corners, rest.vertex_count);
-  find_couplings();
   gradients.resize(3 * corners.size());
   frames.resize(9 * weights.size());
   inverse_inertias_.resize(frames.size());
@@ -85,8 +84,10 @@ VertexStars::VertexStars(const RestShape& rest, const TetMaterial& material)
 
   double_.gradients.assign(gradients.begin(), gradients.end());
   double_.frames.assign(frames.begin(), frames.end());
+  double_.shares.assign(shares.begin(), shares.end());
   single_.gradients.assign(gradients.begin(), gradients.end());
   single_.frames.assign(frames.begin(), frames.end());
+  single_.shares.assign(shares.begin(), shares.end());
   single_.triangles.resize(count);
   for (std::size_t t = 0; t < count; ++t) {
     const Triangle<double>& from = double_.triangles[t];
@@ -99,39 +100,82 @@ VertexStars::VertexStars(const RestShape& rest, const TetMaterial& material)
   }
 }
 
-void VertexStars::find_corners(int vertex_count) {
+void VertexStars::find_triangles(const Incidence& incidence, int vertex_count,
+                                 const StarHats& hats) {
+  first_triangle.push_back(0);
+  if (hats.of_all_vertices()) {
+    for (std::int32_t vertex = 0; vertex < vertex_count; ++vertex) {
+      const auto around = incidence.around(vertex);
+      triangles.insert(triangles.end(), around.begin(), around.end());
+      first_triangle.push_back(static_cast<std::int32_t>(triangles.size()));
+    }
+    shares.assign(triangles.size(), 1.0);
+    return;
+  }
+  std::vector<double> share(double_.triangles.size(), 0.0);
+  for (int star = 0; star < hats.count(); ++star) {
+    const std::size_t begin = triangles.size();
+    for (int k = hats.first[star]; k < hats.first[star + 1]; ++k)
+      for (const std::int32_t triangle : incidence.around(hats.vertices[k])) {
+        if (share[triangle] == 0.0) triangles.push_back(triangle);
+        share[triangle] += hats.weights[k];
+      }
+    std::sort(triangles.begin() + static_cast<std::ptrdiff_t>(begin), triangles.end());
+    for (std::size_t k = begin; k < triangles.size(); ++k)
+      shares.push_back(std::exchange(share[triangles[k]], 0.0));
+    first_triangle.push_back(static_cast<std::int32_t>(triangles.size()));
+    centers_.push_back(hats.vertices[hats.first[star]]);
+  }
+}
+
+void VertexStars::find_corners() {
   first_corner.push_back(0);
-  for (std::int32_t vertex = 0; vertex < vertex_count; ++vertex) {
+  for (int star = 0; star < count(); ++star) {
+    const std::int32_t center = centers_.empty() ? star : centers_[star];
     const std::size_t begin = corners.size();
-    corners.push_back(vertex);
-    for (int k = first_triangle_[vertex]; k < first_triangle_[vertex + 1]; ++k)
-      for (const std::int32_t corner : double_.triangles[triangles_[k]].vertices)
-        if (corner != vertex) corners.push_back(corner);
-    const auto ring = corners.begin() + static_cast<std::ptrdiff_t>(begin) + 1;
-    std::sort(ring, corners.end());
-    corners.erase(std::unique(ring, corners.end()), corners.end());
+    corners.push_back(center);
+    for (int k = first_triangle[star]; k < first_triangle[star + 1]; ++k)
+      for (const std::int32_t corner : double_.triangles[triangles[k]].vertices)
+        if (corner != center) corners.push_back(corner);
+    const auto others = corners.begin() + static_cast<std::ptrdiff_t>(begin) + 1;
+    std::sort(others, corners.end());
+    corners.erase(std::unique(others, corners.end()), corners.end());
     first_corner.push_back(static_cast<std::int32_t>(corners.size()));
   }
 }
 
-void VertexStars::find_couplings() {
-  couplings.assign(corners.size(), 0.0);
-  for (const Triangle<double>& triangle : double_.triangles) {
-    const double hats[3][2] = {
-        {-triangle.first[0], -triangle.first[1] - triangle.second},
-        {triangle.first[0], triangle.first[1]},
-        {0.0, triangle.second},
-    };
-    for (int j = 0; j < 3; ++j) {
-      const std::int32_t star = triangle.vertices[j];
-      const auto begin = corners.begin() + first_corner[star];
-      const auto end = corners.begin() + first_corner[star + 1];
-      for (int k = 0; k < 3; ++k) {
-        const auto place = j == k ? begin : std::lower_bound(begin + 1, end, triangle.vertices[k]);
-        couplings[place - corners.begin()] +=
-            3.0 * triangle.weight * (hats[j][0] * hats[k][0] + hats[j][1] * hats[k][1]);
+void VertexStars::find_couplings(const Incidence& incidence, int vertex_count) {
+  first_neighbour.push_back(0);
+  std::vector<std::pair<std::int32_t, double>> pairs;
+  for (std::int32_t vertex = 0; vertex < vertex_count; ++vertex) {
+    pairs.clear();
+    for (const std::int32_t t : incidence.around(vertex)) {
+      const Triangle<double>& triangle = double_.triangles[t];
+      const double hats[3][2] = {
+          {-triangle.first[0], -triangle.first[1] - triangle.second},
+          {triangle.first[0], triangle.first[1]},
+          {0.0, triangle.second},
+      };
+      const auto j =
+          std::find(triangle.vertices, triangle.vertices + 3, vertex) - triangle.vertices;
+      for (int k = 0; k < 3; ++k)
+        if (k != j)
+          pairs.emplace_back(
+              triangle.vertices[k],
+              3.0 * triangle.weight * (hats[j][0] * hats[k][0] + hats[j][1] * hats[k][1]));
+    }
+    // in the order of the triangles, so that sums round alike
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      if (k > 0 && pairs[k].first == pairs[k - 1].first) {
+        couplings.back() += pairs[k].second;
+      } else {
+        neighbours.push_back(pairs[k].first);
+        couplings.push_back(pairs[k].second);
       }
     }
+    first_neighbour.push_back(static_cast<std::int32_t>(neighbours.size()));
   }
 }
 
@@ -140,9 +184,9 @@ void VertexStars::make_star(int star) {
     return Eigen::Map<const Eigen::Matrix<double, 3, 2, Eigen::RowMajor>>(&triangle.frame[0][0]);
   };
   const auto each = [&](const auto& act) {
-    for (int k = first_triangle_[star]; k < first_triangle_[star + 1]; ++k) {
-      const Triangle<double>& triangle = double_.triangles[triangles_[k]];
-      act(triangle, triangle.weight / weights[star]);
+    for (int k = first_triangle[star]; k < first_triangle[star + 1]; ++k) {
+      const Triangle<double>& triangle = double_.triangles[triangles[k]];
+      act(triangle, shares[k] * triangle.weight / weights[star]);
     }
   };
   Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
@@ -176,7 +220,7 @@ void VertexStars::make_star(int star) {
     const Eigen::Matrix3d in_space =
         share * hats * frame_of(triangle).transpose() * axes * inverse_roots.asDiagonal();
     for (int k = 0; k < 3; ++k) {
-      const auto place = triangle.vertices[k] == star
+      const auto place = triangle.vertices[k] == *begin
                              ? begin
                              : std::lower_bound(begin + 1, end, triangle.vertices[k]);
       Eigen::Map<Eigen::RowVector3d>(gradients.data() + 3 * (place - corners.begin())) +=
@@ -193,23 +237,6 @@ void VertexStars::write_numbers(int star, double* numbers) const {
     std::copy_n(L + 3 * r, 2, numbers + ShellArap::kScaled + 2 * r);
     numbers[ShellArap::kScaled + 6 + r] = L[3 * r + 2];
   }
-}
-
-Eigen::SparseMatrix<double> VertexStars::remainder() const {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int star = 0; star < count(); ++star)
-    for (int k = first_corner[star]; k < first_corner[star + 1]; ++k)
-      entries.emplace_back(star, corners[k], couplings[k]);
-  for (int star = 0; star < count(); ++star)
-    for (int j = first_corner[star]; j < first_corner[star + 1]; ++j)
-      for (int k = first_corner[star]; k < first_corner[star + 1]; ++k) {
-        const double *a = &gradients[3 * std::size_t(j)], *b = &gradients[3 * std::size_t(k)];
-        entries.emplace_back(corners[j], corners[k],
-                             -weights[star] * (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]));
-      }
-  Eigen::SparseMatrix<double> Q(count(), count());
-  Q.setFromTriplets(entries.begin(), entries.end());
-  return Q;
 }
 
 }  // namespace snapspace

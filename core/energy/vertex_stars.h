@@ -1,23 +1,27 @@
 #pragma once
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <cstdint>
 #include <type_traits>
 #include <vector>
 
 #include "material/tet_material.h"
 #include "memory/streamed_vector.h"
+#include "mesh/incidence.h"
 #include "mesh/rest_shape.h"
+#include "mesh/star_hats.h"
 #include "simd/lanes.h"
 
 namespace snapspace {
 
 /// The energy of a surface that is as rigid as possible, spokes and rims [Sorkine, Alexa 2007;
 /// Chao, Pinkall, Sanan, Schroeder 2010]:
-///   E = sum over vertices i, sum over triangles t at i, of weight_t |F_t - R_i T_t|^2,
+///   E = sum over stars i, sum over triangles t of i, of weight_it |F_t - R_i T_t|^2,
 /// with the deformation gradient F_t (3 x 2) in the tangent frame T_t, a third of the triangle's
-/// area times its modulus as the weight, and the rotation R_i nearest to the sum of weight_t F_t
-/// T_t^T. Written with edges it has cotangent weights.
+/// area times its modulus times the sum of the star's hats at its corners as the weight, and the
+/// rotation R_i nearest to the sum of weight_it F_t T_t^T. Hats sum to one at every vertex. With
+/// one ring around every vertex as the stars, it has cotangent weights written with edges. With
+/// larger ones it is like the rotation clusters of Jacobson, Baran, Kavan, Popovic, Sorkine 2012,
+/// which overlap here.
 ///
 /// With M_i = L_i L_i^T the mean of T_t T_t^T, the rotation depends only on the nine numbers H_i =
 /// mean of (F_t - T_t) T_t^T, times L_i^-T. E is a quadratic form of the displacements, how much
@@ -26,28 +30,35 @@ namespace snapspace {
 class VertexStars {
  public:
   /// @param material  of the triangles: rows of ShellArap
-  VertexStars(const RestShape& rest, const TetMaterial& material);
+  VertexStars(const RestShape& rest, const TetMaterial& material, const StarHats& hats);
 
   [[nodiscard]] int count() const { return static_cast<int>(weights.size()); }
 
   std::vector<SweepStop> stops;  ///< of a pass over the stars; `tets` are stars
 
-  /// Corners of star i, first its vertex: first_corner[i] to before first_corner[i + 1]. H_i is
-  /// the sum of u_j (x) gradient_j.
+  /// Corners of star i, first its center: first_corner[i] to before first_corner[i + 1]. H_i is the
+  /// sum of u_j (x) gradient_j. Centers ascend.
   std::vector<std::int32_t> first_corner, corners;
   std::vector<double> gradients;  ///< three per corner
   std::vector<double> frames;     ///< L, row by row, nine per star
   std::vector<double> weights;    ///< sums of the triangles' weights
-  std::vector<double> areas;      ///< a third of the area around each vertex
-  /// One per corner: the Dirichlet energy, the sum of weight_t |F_t - T_t|^2 over all stars and
-  /// their triangles, is that of u_i . u_j times it.
+  std::vector<double> areas;      ///< the same of areas in place of areas times moduli
+  /// Neighbours of vertex i: first_neighbour[i] to before first_neighbour[i + 1]. The Dirichlet
+  /// energy, the sum of weight_it |F_t - T_t|^2 over all stars and their triangles, is that of u_i
+  /// . (u_j - u_i) times the coupling over all pairs.
+  std::vector<std::int32_t> first_neighbour, neighbours;
   std::vector<double> couplings;
 
   /// Row of ShellArap of a star of modulus one.
   void write_numbers(int star, double* numbers) const;
 
-  /// The quadratic part as a matrix (n x n), for x, y and z: u^T Q u.
-  [[nodiscard]] Eigen::SparseMatrix<double> remainder() const;
+  /// Triangles of star i, ascending: first_triangle[i] to before first_triangle[i + 1]. Their
+  /// weights in the star are these shares of a third of area times modulus: the sums of the star's
+  /// hats at their corners.
+  std::vector<std::int32_t> first_triangle, triangles;
+  std::vector<double> shares;
+
+  [[nodiscard]] std::int32_t center(int star) const { return corners[first_corner[star]]; }
 
   /// Energy of the stars from `begin` to before `end` at u; adds its gradient to `gradient` (3n).
   template <class Real>
@@ -79,11 +90,12 @@ class VertexStars {
   template <class T>
   struct Numbers {
     StreamedVector<Triangle<T>> triangles;
-    StreamedVector<T> gradients, frames;
+    StreamedVector<T> gradients, frames, shares;
   };
 
-  void find_corners(int vertex_count);
-  void find_couplings();
+  void find_triangles(const Incidence& incidence, int vertex_count, const StarHats& hats);
+  void find_corners();
+  void find_couplings(const Incidence& incidence, int vertex_count);
   void make_star(int star);
   template <class T>
   [[nodiscard]] const Numbers<T>& numbers() const {
@@ -95,7 +107,7 @@ class VertexStars {
   template <class Real, class Turn>
   Sum<Real> add_stars(int begin, int end, const Real* u, Real* gradient, const Turn& turn) const;
 
-  std::vector<std::int32_t> first_triangle_, triangles_;  // around each vertex
+  std::vector<std::int32_t> centers_;  // empty: all vertices
   Numbers<double> double_;
   Numbers<float> single_;
   // inverse of tr(M) I - M, nine per star: turns the torque of a small displacement into a rotation

@@ -111,7 +111,7 @@ InterpolationSystem::InterpolationSystem(const LocalMesh& mesh, const std::vecto
           Numbering(mesh.order),
           std::make_shared<BlendedEnergy>(poses.data(), count, static_cast<int>(mesh.order.size()),
                                           mesh.tets.data(), static_cast<int>(mesh.tets.size() / 4),
-                                          material.reordered(mesh.tet_order)),
+                                          material.reordered(mesh.tet_order, mesh.order)),
           mesh.tet_order) {}
 
 InterpolationSystem::InterpolationSystem(Numbering numbers,

@@ -98,7 +98,7 @@ PosingSystem::PosingSystem(const LocalMesh& mesh, const MaterialField& material,
           ElasticEnergy(
               RestShape(mesh.vertices.data(), static_cast<int>(mesh.order.size()), mesh.tets.data(),
                         static_cast<int>(mesh.tets.size() / 4), is_of_shells(material.view().kind)),
-              material.reordered(mesh.tet_order)),
+              material.reordered(mesh.tet_order, mesh.order)),
           renumbered(pinned_vertices, mesh.places), pin_weights, kind) {}
 
 PosingSystem::PosingSystem(const LocalMesh& mesh, ElasticEnergy elastic,

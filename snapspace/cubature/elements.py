@@ -134,7 +134,8 @@ def posed_elements_of(problem: PosingProblem) -> PosedElements:
 
 def element_count(problem: Problem) -> int:
     """How many elements a cubature may choose from."""
-    return len(problem.mesh.vertices if has_stars(problem) else problem.mesh.elements)
+    assert isinstance(problem, PosingProblem | InterpolationProblem)
+    return len(elements_of(problem).measures)
 
 
 def has_stars(problem: Problem) -> bool:

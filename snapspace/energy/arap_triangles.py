@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
-from ..material import Material
+from ..material import ARAP, Material
 from ..mesh import ShellMesh
 
 #: The density in the core, and how many numbers its rows have; see core/material/shell_arap.h.
@@ -23,3 +23,15 @@ def arap_triangles(
     triangles = np.ascontiguousarray(mesh.elements[: len(mesh.triangles)])
     rows = _core.shell_moduli(np.ascontiguousarray(poses), triangles, "shell-stvk", moduli)
     return np.ascontiguousarray(np.asarray(rows)[:, :, :NUMBERS])
+
+
+def star_hats(mesh: ShellMesh, poses: NDArray[np.float64], material: ARAP) -> _core.StarHats | None:
+    """The stars of a surface with poses (k, n, 3): the same in all; None for one ring each.
+
+    The radius is relative to the mean diagonal of the poses.
+    """
+    if material.radius == 0.0:
+        return None
+    diagonals = np.linalg.norm(np.ptp(poses, axis=1), axis=1)
+    radius = material.radius * float(np.mean(diagonals))
+    return _core.star_hats(np.ascontiguousarray(poses), mesh.triangles, radius)

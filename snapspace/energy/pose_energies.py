@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
-from ..material import Material
+from ..material import ARAP, Material
 from ..mesh import Body, ShellMesh
+from .arap_triangles import star_hats
 from .shell_material import ShellMaterial, is_of_stars, shell_materials
 from .vertex_stars import VertexStars
 
@@ -39,6 +40,23 @@ class PoseEnergies:
         self._mesh, self._shapes, self._material = mesh, np.ascontiguousarray(shapes), material
         self._compiled: dict[int, _core.ElasticEnergy] = {}
 
+    def in_frames(self, shapes: FloatArray) -> PoseEnergies:
+        """The same energies with the poses (k, n, 3) in other frames.
+
+        They have the same stars: lengths that are computed anew round differently, and centers may
+        hang on that.
+        """
+        moved = PoseEnergies(self._mesh, shapes, self._material)
+        moved.hats = self.hats
+        return moved
+
+    @cached_property
+    def hats(self) -> _core.StarHats | None:
+        """Of the stars of all poses; None for one ring each, and for other bodies."""
+        if not (isinstance(self._mesh, ShellMesh) and isinstance(self._material, ARAP)):
+            return None
+        return star_hats(self._mesh, self._shapes, self._material)
+
     def __len__(self) -> int:
         return len(self._shapes)
 
@@ -54,7 +72,9 @@ class PoseEnergies:
         """The material of these elements in each pose."""
         if not isinstance(self._mesh, ShellMesh):
             return [self._material] * len(self)
-        return shell_materials(self._mesh, self._shapes, self._material, who="InterpolationProblem")
+        return shell_materials(
+            self._mesh, self._shapes, self._material, hats=self.hats, who="InterpolationProblem"
+        )
 
     @cached_property
     def stars(self) -> list[VertexStars] | None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from .. import _core
 from ..material import ARAP, Material, StableNeoHookean, StVK
 from ..mesh import Body, ShellMesh
-from .arap_triangles import KIND, arap_triangles
+from .arap_triangles import KIND, arap_triangles, star_hats
 
 FloatArray = NDArray[np.float64]
 Bending = Literal["angle", "tangent"]
@@ -32,15 +32,17 @@ class ShellMaterial:
     kind : name of the density in the core
     moduli : (e, 15), mu and lam of the plane and the bending stiffness, each times its power of the
         thickness, and numbers of the rest shape; see core/material/shell.h
+    hats : of the stars of `ARAP`; None for one ring around every vertex
     """
 
     kind: str
     moduli: FloatArray
+    hats: _core.StarHats | None = None
 
     @cached_property
     def core(self) -> _core.Material:
         """The densities in the compiled core."""
-        return _core.Material(self.kind, self.moduli)
+        return _core.Material(self.kind, self.moduli, self.hats)
 
     @property
     def uniform(self) -> bool:
@@ -60,7 +62,7 @@ class ShellMaterial:
 
     def __reduce__(self) -> tuple[Any, ...]:
         # cached properties are left out: the compiled material cannot be pickled
-        return ShellMaterial, (self.kind, self.moduli)
+        return ShellMaterial, (self.kind, self.moduli, self.hats)
 
 
 def element_material(
@@ -78,7 +80,9 @@ def element_material(
         raise ValueError(f"{who}: unknown bending '{bending}'; known are {', '.join(BENDINGS)}")
     if not isinstance(mesh, ShellMesh):
         return material
-    return shell_materials(mesh, mesh.vertices[None], material, bending=bending, who=who)[0]
+    poses = mesh.vertices[None]
+    hats = star_hats(mesh, poses, material) if isinstance(material, ARAP) else None
+    return shell_materials(mesh, poses, material, bending=bending, hats=hats, who=who)[0]
 
 
 def shell_materials(
@@ -87,13 +91,14 @@ def shell_materials(
     material: Material,
     *,
     bending: Bending = "angle",
+    hats: _core.StarHats | None = None,
     who: str,
 ) -> list[ShellMaterial]:
     """The materials of a shell's elements with each of several poses (k, n, 3) as the rest shape.
 
-    Those of `ARAP` are the triangles alone. Moduli are those in the mesh itself. Bending vanishes
-    where a triangle collapses, relative to the mean areas of all poses, so that blends of energies
-    collapse (core/energy/shell_poses.h).
+    Those of `ARAP` are the triangles alone, with the `hats` of the stars. Moduli are those in the
+    mesh itself. Bending vanishes where a triangle collapses, relative to the mean areas of all
+    poses, so that blends of energies collapse (core/energy/shell_poses.h).
 
     Raises
     ------
@@ -103,7 +108,7 @@ def shell_materials(
     if isinstance(material, ARAP):
         if bending != "angle":
             raise ValueError(f"{who}: ARAP has no hinges, so bending cannot be '{bending}'")
-        return [ShellMaterial(KIND, rows) for rows in arap_triangles(mesh, poses, material)]
+        return [ShellMaterial(KIND, rows, hats) for rows in arap_triangles(mesh, poses, material)]
     _check_membrane(material, who)
     count = len(mesh.triangles)
     moduli = np.zeros((len(mesh.elements), 3))

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
+from scipy.sparse import csr_array, diags_array
 
 from .. import _core
 from ..blas import single_threaded_blas
@@ -16,6 +16,19 @@ from .shell_material import ShellMaterial
 FloatArray = NDArray[np.float64]
 
 
+class StarTriangles(NamedTuple):
+    """The triangles of some stars, one after the other.
+
+    starts : (r + 1,) int32, where those of each begin
+    triangles : (t,) int32, ascending for each star
+    shares : (t,), their weights in the star: shares of a third of area times modulus
+    """
+
+    starts: NDArray[np.int32]
+    triangles: NDArray[np.int32]
+    shares: FloatArray
+
+
 class VertexStars:
     """The elements of a surface that is as rigid as possible, for cubatures.
 
@@ -23,28 +36,38 @@ class VertexStars:
     density, a function of nine numbers per star; neither part is negative. The form says how much
     the triangles of a star differ from the star's best affine map. See core/energy/vertex_stars.h.
 
-    measures : (n,), a third of the area around each vertex
+    measures : (s,), the area of each: that of its triangles, shared between stars
     material : ShellMaterial of the stars
     """
 
     def __init__(self, energy: _core.ElasticEnergy) -> None:
         stars = energy.stars()
         self.measures: FloatArray = stars.areas()
+        self._triangles = stars.triangles()
         rows = stars.numbers()
         rows[:, 0] = stars.weights() / self.measures
         self.material = ShellMaterial(KIND, rows)
         starts, corners, gradients = stars.corners()
-        count = len(self.measures)
+        neighbours, ends, couplings = stars.couplings()
+        count, vertices = len(self.measures), len(neighbours) - 1
         # three rows per star, for the three columns of its gradient
         stars_of = np.repeat(np.arange(count), np.diff(starts))
         row = (3 * stars_of[:, None] + np.arange(3)).reshape(-1)
         entries = gradients.reshape(-1), (row, np.repeat(corners, 3))
-        self._gradients = csr_array(entries, shape=(3 * count, count))
-        starts, columns, values = stars.remainder()
-        self._remainder = csr_array((values, columns, starts), shape=(count, count))
+        self._gradients = csr_array(entries, shape=(3 * count, vertices))
+        self._weights = np.repeat(stars.weights(), 3)
+        edges = csr_array((couplings, ends, neighbours), shape=(vertices, vertices))
+        # a vertex is coupled to its neighbours by their edges
+        self._dirichlet = csr_array(edges - diags_array(edges.sum(axis=1)))
 
     def __len__(self) -> int:
         return len(self.measures)
+
+    def triangles(self, stars: NDArray[np.integer[Any]]) -> StarTriangles:
+        """The triangles of some stars (r,)."""
+        starts, triangles, shares = self._triangles
+        rows = csr_array((shares, triangles, starts))[stars]
+        return StarTriangles(rows.indptr, rows.indices, rows.data)
 
     def gradients(self, basis: FloatArray, stars: NDArray[np.integer[Any]]) -> FloatArray:
         """The nine numbers of displacements (3n, d) in some stars (r,), (r, 9, d).
@@ -78,8 +101,9 @@ class VertexStars:
 
     def _forces(self, displacements: FloatArray) -> FloatArray:
         """The form's matrix times displacements (3n, d)."""
-        forces = self._by_vertex(self._remainder, displacements)
-        return forces.reshape(displacements.shape)
+        affine = self._by_vertex(self._gradients, displacements) * self._weights[:, None]
+        forces = self._by_vertex(self._dirichlet, displacements) - self._gradients.T @ affine
+        return np.asarray(forces).reshape(displacements.shape)
 
     @staticmethod
     def _by_vertex(matrix: csr_array, displacements: FloatArray) -> FloatArray:

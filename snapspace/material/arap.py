@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
+from .material import SETTING
 from .shear_material import ShearMaterial
 
 
@@ -15,8 +16,33 @@ class ARAP(ShearMaterial):
     The continuous form of Chao, Pinkall, Sanan, Schroeder 2010, "A Simple Geometric Model for
     Elastic Deformations"; fixed corotational without the volume term.
 
-    Parameters and errors as for `ShearMaterial`.
+    Parameters
+    ----------
+    mu : as for `ShearMaterial`
+    radius : float, default 0.015
+        Of surfaces only: the neighbourhoods that share a rotation have centers so far apart along
+        the surface, relative to the diagonal. They overlap as hat functions do. So a surface
+        resists bending by this radius, however fine its mesh is. Where edges are longer, and
+        everywhere with 0, the neighbourhoods are those of all vertices, with the triangles around
+        each: spokes and rims (Sorkine, Alexa 2007). Larger ones are like the rotation clusters of
+        Jacobson, Baran, Kavan, Popovic, Sorkine 2012.
+
+    Raises
+    ------
+    ValueError
+        As for `ShearMaterial`; for a radius that is not from 0 to 1.
     """
 
     kind: ClassVar[str] = "arap"
     title: ClassVar[str] = "as rigid as possible"
+
+    radius: float = field(default=0.015, metadata=SETTING)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not (isinstance(self.radius, (int, float)) and 0.0 <= self.radius <= 1.0):
+            raise ValueError(
+                f"ARAP: radius is {self.radius!r}, but must be a number from 0 to 1, relative to "
+                "the diagonal"
+            )
+        object.__setattr__(self, "radius", float(self.radius))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import fields
 from functools import cached_property
 from typing import Any, ClassVar, TypeVar
@@ -18,6 +19,8 @@ FloatArray = NDArray[np.float64]
 #: A number that holds in all tets, or one number per tet, (m,).
 Modulus = float | FloatArray
 Own = TypeVar("Own", bound="Material")
+#: Metadata of a field that is not a modulus: one number of the whole body.
+SETTING = {"setting": True}
 
 
 class Material(ABC):
@@ -25,7 +28,8 @@ class Material(ABC):
 
     A subclass is a frozen dataclass. Its fields are the moduli, in the same order as in
     core/material; each is a number, or an array (m,) with one number per tet. Moduli are energies
-    per rest volume, and the density is linear in them.
+    per rest volume, and the density is linear in them. Fields with the metadata `SETTING` are
+    numbers that no density knows.
 
     Attributes
     ----------
@@ -60,7 +64,23 @@ class Material(ABC):
     @classmethod
     def names(cls) -> tuple[str, ...]:
         """Names of the moduli, in the core's order."""
-        return tuple(field.name for field in fields(cls))  # type: ignore[arg-type]  # a dataclass
+        own = fields(cls)  # type: ignore[arg-type]  # a dataclass
+        return tuple(field.name for field in own if not field.metadata)
+
+    @classmethod
+    def setting_names(cls) -> tuple[str, ...]:
+        """Names of the fields that are not moduli."""
+        own = fields(cls)  # type: ignore[arg-type]  # a dataclass
+        return tuple(field.name for field in own if field.metadata)
+
+    @property
+    def settings(self) -> dict[str, float]:
+        """The fields that are not moduli, by name."""
+        return {name: getattr(self, name) for name in self.setting_names()}
+
+    def with_moduli(self: Own, moduli: Mapping[str, Any]) -> Own:
+        """The material with other moduli, by name, and the same settings."""
+        return type(self)(**moduli, **self.settings)
 
     @classmethod
     @abstractmethod
@@ -108,8 +128,9 @@ class Material(ABC):
 
     @cached_property
     def key(self) -> list[str]:
-        """Everything that solutions depend on: the kind, and a hash of the moduli."""
-        return [self.kind, hashlib.sha256(self.moduli.astype("<f8").tobytes()).hexdigest()]
+        """Everything that solutions depend on: the kind, a hash of the moduli, and settings."""
+        moduli = hashlib.sha256(self.moduli.astype("<f8").tobytes()).hexdigest()
+        return [self.kind, moduli, *(f"{name} {x!r}" for name, x in self.settings.items())]
 
     def check_tets(self, count: int, who: str) -> None:
         """ValueError unless the moduli are the same in all tets, or one per tet of `count`."""
@@ -123,7 +144,7 @@ class Material(ABC):
         """The material of some tets (r,), in their order."""
         if self.uniform:
             return self
-        return type(self)(**{name: self._per_tet(name)[tets] for name in self.names()})
+        return self.with_moduli({name: self._per_tet(name)[tets] for name in self.names()})
 
     def _per_tet(self, name: str) -> FloatArray:
         values: FloatArray = np.broadcast_to(getattr(self, name), len(self.moduli))
@@ -134,6 +155,7 @@ class Material(ABC):
             isinstance(other, Material)
             and self.kind == other.kind
             and np.array_equal(self.moduli, other.moduli)
+            and self.settings == other.settings
         )
 
     def __hash__(self) -> int:
@@ -141,8 +163,9 @@ class Material(ABC):
 
     def __reduce__(self) -> tuple[Any, ...]:
         # cached properties are left out: the compiled material cannot be pickled
-        return _restore, (type(self), {name: getattr(self, name) for name in self.names()})
+        moduli = {name: getattr(self, name) for name in self.names()}
+        return _restore, (type(self), moduli | self.settings)
 
 
-def _restore(kind: type[Own], moduli: dict[str, Any]) -> Own:
-    return kind(**moduli)
+def _restore(kind: type[Own], arguments: dict[str, Any]) -> Own:
+    return kind(**arguments)

@@ -15,7 +15,6 @@ from ..reduction import (
     InterpolationModel,
     PoseQuartics,
     coefficient_count,
-    has_stars,
     not_stored,
 )
 from ..subspace import AffineSubspace
@@ -49,7 +48,7 @@ def interpolation_arrays(model: InterpolationModel) -> Arrays:
         "basis": basis.stored_basis(model.subspace),
         **snapshot_energies.energy_arrays(model.subspace),
         **material_file.material_arrays(problem.material),
-        **_blend_arrays(model.blends),
+        **_blend_arrays(model.blends, problem),
         "training_parameters": model.training_parameters,
         "training_coordinates": model.training_coordinates,
     }
@@ -120,12 +119,14 @@ def _poses(arrays: Arrays, content: dict[str, Any]) -> Poses | ShellPoses:
     )
 
 
-def _blend_arrays(blends: PoseQuartics | BlendedSum | FullBlends) -> Arrays:
+def _blend_arrays(
+    blends: PoseQuartics | BlendedSum | FullBlends, problem: InterpolationProblem
+) -> Arrays:
     if isinstance(blends, FullBlends):
         raise not_stored("save_model")
     if isinstance(blends, BlendedSum):
         chosen: Arrays = {"cubature_tets": blends.tets, "cubature_weights": blends.weights}
-        return chosen | star_forms.form_arrays(blends)
+        return chosen | star_forms.form_arrays(blends, problem)
     return {"quartics": blends.coefficients}
 
 
@@ -138,9 +139,11 @@ def _blends(
         return PoseQuartics(d, arrays["quartics"])
     tets, weights = arrays["cubature_tets"], arrays["cubature_weights"]
     check_shapes(arrays, {"cubature_tets": (tets.size,), "cubature_weights": (tets.size,)})
-    if has_stars(problem):
+    stars = problem.pose_energies.stars
+    if stars is not None:
         count, forms = len(problem.poses), arrays[star_forms.FORMS]
         shapes = {star_forms.FORMS: (count, d + 1, d + 1), star_forms.DIRICHLET: (count, d, d)}
         check_shapes(arrays, shapes)
+        star_forms.check_stars(arrays, problem.material, stars[0], tets)
         return BlendedStars.of_tets(problem, subspace, tets, weights, forms=forms)
     return BlendedCubature.of_tets(problem, subspace, tets, weights)

@@ -23,10 +23,10 @@ def material_arrays(material: Material) -> Arrays:
 
 
 def material_content(material: Material) -> dict[str, Any]:
-    """Name and moduli as JSON: numbers, or null where they differ from tet to tet."""
+    """Name, moduli and settings as JSON: numbers, or null where moduli differ from tet to tet."""
     moduli = {name: getattr(material, name) for name in material.names()}
     numbers = {name: None if np.ndim(value) else value for name, value in moduli.items()}
-    return {"model": material.kind, **numbers}
+    return {"model": material.kind, **numbers, **material.settings}
 
 
 def dtypes(arrays: Arrays) -> dict[str, type]:
@@ -58,4 +58,6 @@ def material(arrays: Arrays, content: dict[str, Any], tets: int) -> Material:
     for column, (name, value) in enumerate(moduli.items()):
         if value is None:
             moduli[name] = arrays[MODULI][:, column]
-    return kind(**moduli)
+    # older files had no settings: their surfaces had one ring around every vertex
+    settings = {name: content.get(name, 0.0) for name in kind.setting_names()}
+    return kind(**moduli, **settings)

@@ -15,7 +15,6 @@ from ..reduction import (
     PosingModel,
     Quartic,
     coefficient_count,
-    has_stars,
     not_stored,
 )
 from ..subspace import AffineSubspace
@@ -57,7 +56,7 @@ def posing_arrays(model: PosingModel) -> Arrays:
         "basis": basis.stored_basis(model.subspace),
         **snapshot_energies.energy_arrays(model.subspace),
         **material_file.material_arrays(problem.material),
-        **_elastic_arrays(model.elastic),
+        **_elastic_arrays(model.elastic, problem),
         "handle_K": model.handles.K,
         "handle_L": model.handles.L,
         "handle_S": model.handles.S,
@@ -125,12 +124,12 @@ def _body(arrays: Arrays) -> Body:
     return ShellMesh(arrays["vertices"], arrays["triangles"], thickness=cells.thickness(arrays))
 
 
-def _elastic_arrays(elastic: Quartic | Cubature | FullEnergy) -> Arrays:
+def _elastic_arrays(elastic: Quartic | Cubature | FullEnergy, problem: PosingProblem) -> Arrays:
     if isinstance(elastic, FullEnergy):
         raise not_stored("save_model")
     if isinstance(elastic, Cubature):
         chosen: Arrays = {"cubature_tets": elastic.tets, "cubature_weights": elastic.weights}
-        return chosen | star_forms.remainder_arrays(elastic)
+        return chosen | star_forms.remainder_arrays(elastic, problem)
     return {"quartic": elastic.coefficients}
 
 
@@ -143,7 +142,8 @@ def _elastic(
     tets, weights = arrays["cubature_tets"], arrays["cubature_weights"]
     check_shapes(arrays, {"cubature_tets": (tets.size,), "cubature_weights": (tets.size,)})
     remainder = None
-    if has_stars(problem):
+    if problem.energy.stars is not None:
+        star_forms.check_stars(arrays, problem.material, problem.energy.stars, tets)
         remainder = arrays[star_forms.REMAINDER]
         check_shapes(arrays, {star_forms.REMAINDER: (subspace.dimension, subspace.dimension)})
     return Cubature.of_tets(problem, subspace, tets, weights, remainder=remainder)

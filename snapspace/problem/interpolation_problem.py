@@ -157,14 +157,16 @@ class InterpolationProblem:
     @cached_property
     def element_material(self) -> Material | ShellMaterial:
         """The material of the elements of the first pose."""
-        return PoseEnergies(self.mesh, self.poses.shapes, self.material).materials[0]
+        return self._given_energies.materials[0]
 
     @cached_property
     def pose_energies(self) -> PoseEnergies:
         """The energies E_k of the poses registered to the mean shape."""
-        return PoseEnergies(
-            self.mesh, self.pose_shapes.reshape(self.poses.shapes.shape), self.material
-        )
+        return self._given_energies.in_frames(self.pose_shapes.reshape(self.poses.shapes.shape))
+
+    @cached_property
+    def _given_energies(self) -> PoseEnergies:
+        return PoseEnergies(self.mesh, self.poses.shapes, self.material)
 
     @cached_property
     def fingerprint(self) -> str:
@@ -251,8 +253,7 @@ class InterpolationProblem:
     def _rest_system(self) -> core.InterpolationSystem:
         # energies do not depend on the poses' frames, but differences lose digits in distant ones
         shapes = self._near_poses.reshape(self.poses.shapes.shape)
-        corners = PoseEnergies(self.mesh, shapes, self.material).corners
-        material = self.element_material
+        corners, material = self._given_energies.corners, self.element_material
         return run_abandonable(lambda: core.InterpolationSystem(shapes, corners, material.core))
 
     def _system_near(self, displacement: FloatArray) -> core.InterpolationSystem:

@@ -21,10 +21,11 @@ def material_from(value: Any, mesh: Body) -> Material:
     Parameters
     ----------
     value : object
-        {"model": kind, moduli by name} or {"model": kind, "young", "poisson"}, and "regions", see
-        `with_regions`. Values are numbers, or lists with one number per tet; missing moduli have
-        the default of the class. Without "model" it is the default material. But if "lam" or "mu"
-        is there and nothing else, it is St.Venant-Kirchhoff: old files named no model.
+        {"model": kind, moduli by name} or {"model": kind, "young", "poisson"}, settings by name,
+        and "regions", see `with_regions`. Values of moduli are numbers, or lists with one number
+        per tet; what is missing has the default of the class. Without "model" it is the default
+        material. But if "lam" or "mu" is there and nothing else, it is St.Venant-Kirchhoff: old
+        files named no model.
     mesh : TetMesh or ShellMesh
 
     Raises
@@ -36,10 +37,13 @@ def material_from(value: Any, mesh: Body) -> Material:
     content = as_object(value, "material")
     with within("material"):
         kind = _class_of(content)
-    as_object(content, "material", known={_MODEL, _REGIONS, *NAMES, *kind.names()})
-    entries = {key: entry for key, entry in content.items() if key not in (_MODEL, _REGIONS)}
+    settings = kind.setting_names()
+    as_object(content, "material", known={_MODEL, _REGIONS, *NAMES, *kind.names(), *settings})
+    others = (_MODEL, _REGIONS, *settings)
+    entries = {key: entry for key, entry in content.items() if key not in others}
     with within("material"):
-        material = kind(**moduli_of(entries, kind, of_each=_one_or_per_tet))
+        given = {name: as_number(content[name], name) for name in settings if name in content}
+        material = kind(**moduli_of(entries, kind, of_each=_one_or_per_tet), **given)
         material.check_tets(len(mesh.cells), kind.__name__)
     return with_regions(material, as_list(content.get(_REGIONS, []), "material.regions"), mesh)
 
@@ -54,11 +58,11 @@ def material_content(material: Material) -> dict[str, Any]:
     names, rows = material.names(), material.moduli
     base, regions = regions_content(rows, names)
     if base is not None:
-        content |= dict(zip(names, base.tolist(), strict=True))
+        content |= dict(zip(names, base.tolist(), strict=True)) | material.settings
         return content | ({_REGIONS: regions} if regions else {})
     for name, column in zip(names, rows.T, strict=True):
         content[name] = column.tolist() if np.ptp(column) else float(column[0])
-    return content
+    return content | material.settings
 
 
 def _class_of(content: dict[str, Any]) -> type[Material]:

@@ -56,7 +56,7 @@ def with_regions(material: Material, regions: Sequence[Any], mesh: Body) -> Mate
             new = {key: value for key, value in region.items() if key not in _PLACES}
             for name, value in _moduli_of(new, kind, moduli, inside).items():
                 moduli[name][inside] = value
-            material = kind(**moduli)
+            material = material.with_moduli(moduli)
     return material
 
 

@@ -62,7 +62,7 @@ def fitted_material(material: Material, mesh: Body) -> Material:
     moduli = {name: getattr(material, name) for name in material.names()}
     if all(np.size(value) in (1, len(mesh.cells)) for value in moduli.values()):
         return material
-    return type(material)(**{name: float(np.mean(value)) for name, value in moduli.items()})
+    return material.with_moduli({name: float(np.mean(value)) for name, value in moduli.items()})
 
 
 def shown_poisson(material: Material) -> float | None:

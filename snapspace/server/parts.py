@@ -60,7 +60,7 @@ def with_factors(material: Material, factors: FloatArray | None) -> Material:
     if factors is None:
         return material
     moduli = {name: getattr(material, name) * factors for name in material.names()}
-    return type(material)(**moduli)
+    return material.with_moduli(moduli)
 
 
 def _check(part: PartChoice, names: set[str]) -> None:

@@ -1,6 +1,6 @@
 import type { Container } from "./container.ts";
 import type { BlendedStars, Cubature } from "./model.ts";
-import { STAR_MODULI, VertexStars, type RigidSurface } from "./vertex_stars.ts";
+import { oneRings, STAR_MODULI, VertexStars, type RigidSurface, type StarTriangles } from "./vertex_stars.ts";
 
 const KIND = "shell-arap";
 
@@ -11,13 +11,13 @@ export function starCubature(
   surface: RigidSurface,
   basis: Float64Array,
 ): Cubature {
-  const vertices = chosenVertices(container, rest.length / 3);
-  const stars = new VertexStars(rest, surface, vertices);
+  const chosen = chosenStars(container, surface, rest.length / 3);
+  const stars = new VertexStars(rest, surface, chosen);
   return {
     kind: "cubature",
     rows: rowsOf([stars], basis, basis.length / rest.length),
-    weights: container.doubles("cubature_weights", vertices.length),
-    material: { kind: KIND, rows: vertices.length, moduli: stars.moduli },
+    weights: container.doubles("cubature_weights", chosen.length),
+    material: { kind: KIND, rows: chosen.length, moduli: stars.moduli },
   };
 }
 
@@ -36,21 +36,21 @@ export function blendedStars(
   mean: Float64Array,
 ): BlendedStars {
   const dimension = basis.length / mean.length;
-  const vertices = chosenVertices(container, mean.length / 3);
-  const stars = poses.map((pose) => new VertexStars(pose, surface, vertices));
-  const moduli = new Float64Array(STAR_MODULI * vertices.length * poses.length);
-  const origins = new Float64Array(9 * vertices.length * poses.length);
+  const chosen = chosenStars(container, surface, mean.length / 3);
+  const stars = poses.map((pose) => new VertexStars(pose, surface, chosen));
+  const moduli = new Float64Array(STAR_MODULI * chosen.length * poses.length);
+  const origins = new Float64Array(9 * chosen.length * poses.length);
   stars.forEach((ofPose, k) => {
     const perFirstArea = ofPose.moduli.slice();
-    vertices.forEach((_, i) => (perFirstArea[STAR_MODULI * i] *= ofPose.areas[i] / stars[0].areas[i]));
+    chosen.forEach((_, i) => (perFirstArea[STAR_MODULI * i] *= ofPose.areas[i] / stars[0].areas[i]));
     moduli.set(perFirstArea, k * perFirstArea.length);
     const displaced = mean.map((x, i) => x - poses[k][i]);
-    origins.set(ofPose.numbers(displaced), 9 * vertices.length * k);
+    origins.set(ofPose.numbers(displaced), 9 * chosen.length * k);
   });
   return {
     kind: "stars",
     rows: rowsOf(stars, basis, dimension),
-    weights: container.doubles("cubature_weights", vertices.length),
+    weights: container.doubles("cubature_weights", chosen.length),
     material: { kind: KIND, rows: moduli.length / STAR_MODULI, moduli },
     origins,
     forms: container.doubles("stars_forms", poses.length, dimension + 1, dimension + 1),
@@ -71,6 +71,16 @@ function rowsOf(poses: readonly VertexStars[], basis: Float64Array, dimension: n
   return rows;
 }
 
-function chosenVertices(container: Container, vertices: number): Int32Array {
-  return container.indices("cubature_tets", vertices, container.shape("cubature_tets", 1));
+/** The triangles of the chosen stars: as in the file, or else one ring of each vertex. */
+function chosenStars(container: Container, { triangles }: RigidSurface, vertices: number): StarTriangles[] {
+  const chosen = container.indices("cubature_tets", vertices, container.shape("cubature_tets", 1));
+  if (!container.has("stars_starts")) return oneRings(triangles, chosen, vertices);
+  const [count] = container.shape("stars_triangles", 1);
+  const starts = container.indices("stars_starts", count + 1, [chosen.length + 1]);
+  const own = container.indices("stars_triangles", triangles.length / 3, [count]);
+  const shares = container.doubles("stars_shares", count);
+  return Array.from(chosen, (_, i) => ({
+    triangles: own.subarray(starts[i], starts[i + 1]),
+    shares: shares.subarray(starts[i], starts[i + 1]),
+  }));
 }

@@ -13,19 +13,24 @@ export interface RigidSurface {
   readonly stiffness: Float64Array;
 }
 
-/** The stars of some vertices of a surface with one shape at rest; as VertexStars of the core. */
+/** The triangles of a star, and what share of a third of its area times stiffness each has there. */
+export interface StarTriangles {
+  readonly triangles: ArrayLike<number>;
+  readonly shares: ArrayLike<number>;
+}
+
+/** Some stars of a surface with one shape at rest; as VertexStars of the core. */
 export class VertexStars {
-  /** A third of the area around each vertex. */
+  /** The area of each: that of its triangles, shared between stars. */
   readonly areas: Float64Array;
-  /** Rows of the density "shell-arap", with the mean stiffness around each vertex as the modulus. */
+  /** Rows of the density "shell-arap", with the mean stiffness of each as the modulus. */
   readonly moduli: Float64Array<ArrayBuffer>;
   readonly #corners: readonly Int32Array[];
   readonly #gradients: readonly Float64Array[];
 
-  constructor(shape: Float64Array, { triangles, stiffness }: RigidSurface, vertices: Int32Array) {
+  constructor(shape: Float64Array, { triangles, stiffness }: RigidSurface, chosen: readonly StarTriangles[]) {
     const normals = triangleNormals(shape, triangles);
-    const around = trianglesAround(triangles, vertices, shape.length / 3);
-    const stars = around.map((own) => starOf(own, { shape, triangles, stiffness, normals }));
+    const stars = chosen.map((own) => starOf(own, { shape, triangles, stiffness, normals }));
     this.areas = Float64Array.from(stars, (star) => star.area);
     this.moduli = new Float64Array(STAR_MODULI * stars.length);
     stars.forEach(({ weight, area, L }, star) => {
@@ -58,7 +63,7 @@ interface Surface extends RigidSurface {
 
 interface Star {
   readonly area: number;
-  /** Sum of a third of the areas times stiffness. */
+  /** The same of area times stiffness. */
   readonly weight: number;
   /** L L^T is the mean of the projections onto the planes of the triangles. */
   readonly L: number[][];
@@ -66,10 +71,11 @@ interface Star {
   readonly gradients: Map<number, number[]>;
 }
 
-function starOf(own: readonly number[], surface: Surface): Star {
+function starOf({ triangles, shares }: StarTriangles, surface: Surface): Star {
+  const own = Array.from(triangles);
   const sizes = own.map((t) => Math.hypot(...vectorOf(surface.normals, t)));
   const units = own.map((t, i) => vectorOf(surface.normals, t).map((x) => x / sizes[i]));
-  const weights = own.map((t, i) => (surface.stiffness[t] * sizes[i]) / 6);
+  const weights = own.map((t, i) => (shares[i] * surface.stiffness[t] * sizes[i]) / 6);
   const weight = sum(weights);
   const mean = (of: (i: number) => number) => sum(weights.map((w, i) => (w / weight) * of(i)));
   const M = [0, 1, 2].map((r) =>
@@ -93,18 +99,18 @@ function starOf(own: readonly number[], surface: Surface): Star {
     }
   });
   const L = [0, 1, 2].map((r) => axes.map((axis, k) => axis[r] * roots[k]));
-  return { area: sum(sizes) / 6, weight, L, gradients };
+  return { area: sum(sizes.map((size, i) => shares[i] * size)) / 6, weight, L, gradients };
 }
 
-/** The triangles at some vertices. */
-function trianglesAround(triangles: Int32Array, vertices: Int32Array, count: number): number[][] {
+/** The stars of some vertices with the triangles around each. */
+export function oneRings(triangles: Int32Array, vertices: Int32Array, count: number): StarTriangles[] {
   const place = new Int32Array(count).fill(-1);
   vertices.forEach((vertex, i) => (place[vertex] = i));
   const around: number[][] = Array.from(vertices, () => []);
   triangles.forEach((vertex, corner) => {
     if (place[vertex] >= 0) around[place[vertex]].push(Math.floor(corner / 3));
   });
-  return around;
+  return around.map((own) => ({ triangles: own, shares: own.map(() => 1) }));
 }
 
 function vectorOf(rows: Float64Array, i: number): number[] {
