@@ -9,6 +9,7 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from ..calibration import calibrate
+from ..certificate import has_certificates
 from ..interruptible import begin_abandonable
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
@@ -147,7 +148,7 @@ class ModelSearch:
 
     @property
     def chosen(self) -> Trial:
-        """The best trial of all, its model calibrated with the held-out samples.
+        """The best trial of all, its model calibrated with the held-out samples if it can be.
 
         The model's provenance has the target and all steps.
         """
@@ -161,7 +162,7 @@ class ModelSearch:
         }
         provenance: dict[str, Any] = {**best.model.provenance, "accurate": record}
         model = replace(best.model, provenance=provenance)
-        if len(best.unseen) > 1:
+        if len(best.unseen) > 1 and has_certificates(self.samples.problem):
             model = calibrate(model, reference=best.unseen, thorough=False)
         return replace(best, model=model)
 

@@ -4,7 +4,7 @@ from .certificate import Certificate
 from .error_estimator import ErrorEstimator
 from .local_ratios import LocalRatios
 from .residual_growth import grown, growth_exponent, rest_size
-from .residual_probe import BlendingProbe, PosingProbe, ResidualProbe
+from .residual_probe import BlendingProbe, PosingProbe, ResidualProbe, has_certificates
 from .residual_sample import (
     ResidualSample,
     residual_sample,
@@ -21,6 +21,7 @@ __all__ = [
     "ResidualSample",
     "grown",
     "growth_exponent",
+    "has_certificates",
     "residual_sample",
     "rest_size",
     "scalar_diagonal",

@@ -129,6 +129,11 @@ class ResidualProbe(ABC):
         self.arms = problem.mesh.vertices[vertices] - problem.centroids[self.handles]
 
 
+def has_certificates(problem: PosingProblem | InterpolationProblem) -> bool:
+    """Whether residuals at a few vertices depend on few others: not where stars have a radius."""
+    return not problem.material.settings.get("radius")
+
+
 def _elements_around(
     problem: PosingProblem | InterpolationProblem, sampled: NDArray[np.bool_]
 ) -> NDArray[np.intp]:

@@ -16,11 +16,11 @@ from rich.text import Text
 from ..accurate import BLENDS, check_budget, check_target
 from ..cubature import FEWEST_BLENDS
 from ..fitting import DEVIATION, PoseFit, check_deviation
-from ..material import ARAP, MATERIALS, StableNeoHookean, material_class
 from ..mesh import write_tets
 from ..problem import InterpolationProblem, Poses, Simplex
 from ..registration import SCALE_POLICIES, ScalePolicy
 from .accurate_pipeline import budget_option, chosen_build, decided_by_hand
+from .blend_material import blend_material, material_options
 from .build import check_output
 from .build_advice import Suggestions, build_advice
 from .choices import WEIGHT_SAMPLINGS, Choices, choice_options
@@ -32,7 +32,6 @@ from .given_options import given_options
 from .options import FILE, TET_COUNT, dask_option, json_option, shell_option, threads_option
 from .pose_files import PoseOptions, PoseSet, read_poses
 from .printable import printable
-from .shell_pose_files import check_shell_options
 from .summary import print_summary
 
 SAMPLES, DIMENSION = 40, 30
@@ -86,15 +85,7 @@ SAMPLES, DIMENSION = 40, 30
     show_default=True,
     help="Sample a simplex that is larger by this share.",
 )
-@click.option(
-    "--material",
-    "kind",
-    type=click.Choice(sorted(MATERIALS)),
-    help=f"Material of the body; stvk is the paper's [default: {StableNeoHookean.kind}, or "
-    f"{ARAP.kind} with --shell].",
-)
-@click.option("--lam", type=float, default=1.0, show_default=True, help="First Lame parameter.")
-@click.option("--mu", type=float, default=1.0, show_default=True, help="Second Lame parameter.")
+@material_options
 @click.option(
     "--target-error",
     type=float,
@@ -132,6 +123,7 @@ def interpolate(
     kind: str | None,
     lam: float,
     mu: float,
+    radius: float | None,
     target_error: float,
     budget: float | None,
     cubature_tets: int | None,
@@ -165,10 +157,7 @@ def interpolate(
         raise ValueError(f"interpolate needs two poses or more, got {len(files)}")
     if tets is not None and edge_length is not None:
         raise ValueError("--edge-length is for filling the surface; leave it or --tets out")
-    kind = kind or (StableNeoHookean if thickness is None else ARAP).kind
-    if thickness is not None:
-        check_shell_options(kind)
-    material = material_class(kind).from_lame(lam=lam, mu=mu)
+    material = blend_material(kind, lam=lam, mu=mu, radius=radius, shell=thickness is not None)
     domain = Simplex(corners=len(files), extrapolation=extrapolation)
     recipe = choices.recipe(domain, dimension=DIMENSION, threads=threads, known=len(files))
     check_target(target_error)

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..accurate import plan_of
 from ..calibration import calibrate
+from ..certificate import has_certificates
 from ..mesh import TetMesh
 from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import Snapshots
@@ -44,8 +45,13 @@ def judged(
 
 
 def with_estimates(model: Model, validation: Validation | None) -> Model:
-    """The model with error estimates for its frames, calibrated with the validation."""
+    """The model with error estimates for its frames, calibrated with the validation.
+
+    Without them where frames have no certificates.
+    """
     if validation is None or len(validation.reference) < 2:
+        return model
+    if not has_certificates(model.problem):
         return model
     return calibrate(model, reference=validation.reference, thorough=False)
 

@@ -73,8 +73,7 @@ class InterpolationProblem:
         mean_shape: ArrayLike | None = None,
     ) -> None:
         self.poses = as_poses(poses)
-        shell = isinstance(self.mesh, ShellMesh)
-        made_of = material or (ARAP() if shell else StableNeoHookean())
+        made_of = material or (ARAP() if isinstance(self.mesh, ShellMesh) else StableNeoHookean())
         self.material = checked_material(made_of, len(self.mesh.cells), "InterpolationProblem")
         self.domain = Simplex(corners=len(self.poses), extrapolation=extrapolation)
         if mean_shape is not None:
@@ -253,8 +252,8 @@ class InterpolationProblem:
     def _rest_system(self) -> core.InterpolationSystem:
         # energies do not depend on the poses' frames, but differences lose digits in distant ones
         shapes = self._near_poses.reshape(self.poses.shapes.shape)
-        corners, material = self._given_energies.corners, self.element_material
-        return run_abandonable(lambda: core.InterpolationSystem(shapes, corners, material.core))
+        parts = self._given_energies.corners, self.element_material.core
+        return run_abandonable(lambda: core.InterpolationSystem(shapes, *parts))
 
     def _system_near(self, displacement: FloatArray) -> core.InterpolationSystem:
         """The system with a factor for solutions near a displacement (3n,)."""

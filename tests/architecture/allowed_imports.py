@@ -91,6 +91,7 @@ ALLOWED: dict[str, set[str]] = {
     "model_file": {
         "certificate",
         "disk",
+        "energy",
         "input_error",
         "material",
         "mesh",
@@ -151,6 +152,7 @@ ALLOWED: dict[str, set[str]] = {
     },
     "accurate": {
         "calibration",
+        "certificate",
         "displacements",
         "greedy",
         "interruptible",

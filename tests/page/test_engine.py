@@ -28,7 +28,7 @@ from snapspace.generators import bar
 from snapspace.material import MATERIALS
 from snapspace.page import packed
 
-from ..shells.strips import blended_strips, shell_model
+from ..shells.strips import WIDE, blended_strips, shell_model
 from .material_models import material_model
 from .tools import assert_node_tests_pass, tool
 
@@ -80,6 +80,7 @@ def blending_frames(model: InterpolationModel) -> dict[str, Any]:
     frames = []
     for weights in ([0.5, 0.25, 0.25], [0.0, 1.0, 0.0], [0.1, 0.2, 0.7], [-0.1, 0.6, 0.5]):
         report = session.blend(weights, extrapolate=True)
+        session.solve()  # as in blending.test.ts
         linear = model.problem.linear_blend(weights, extrapolate=True)
         frames.append(
             {
@@ -234,7 +235,9 @@ def expected(
         "surface-arap": calibrate(shell_model(ARAP(), varied=True), samples=12, threads=1),
     }
     models |= materials | shells
+    models["surface-radius"] = shell_model(ARAP(), varied=True, radius=WIDE)
     models["blending-arap"] = calibrate(blended_strips(), samples=12, threads=1)
+    models["blending-radius"] = blended_strips(ARAP(radius=WIDE))
     models["blending-shell"] = calibrate(blended_strips(StableNeoHookean()), samples=12, threads=1)
     for name, model in models.items():
         model.save(folder / f"{name}.snapspace")
@@ -246,6 +249,8 @@ def expected(
         "blending": blending_frames(models["blending"]),
         "blending-cubature": blending_frames(models["blending-cubature"]),
         "blending-arap": blending_frames(models["blending-arap"]),
+        "surface-radius": posing_frames(models["surface-radius"]),
+        "blending-radius": blending_frames(models["blending-radius"]),
         "blending-shell": blending_frames(models["blending-shell"]),
         "own_boxes": box_frames(own_boxes),
         "strains": surface_strains(posing_model),

@@ -24,6 +24,9 @@ from snapspace import (
 
 from .sheets import grid
 
+#: A radius of stars that is more than the edges of strips.
+WIDE = 0.1
+
 
 def strip(nx: int = 16, ny: int = 4, *, thickness: ArrayLike = 0.03) -> ShellMesh:
     """A strip of length two, bent to a quarter of a cylinder along its length, and irregular."""
@@ -36,18 +39,21 @@ def strip(nx: int = 16, ny: int = 4, *, thickness: ArrayLike = 0.03) -> ShellMes
     return ShellMesh(vertices, grid(nx, ny, alternating=True), thickness=thickness)
 
 
-def shell_model(material: Material | None = None, *, varied: bool = False) -> PosingModel:
+def shell_model(
+    material: Material | None = None, *, varied: bool = False, radius: float = 0.0
+) -> PosingModel:
     """A strip with handles at its ends and in the middle, of thick triangles, in 12 dimensions.
 
     material : default StableNeoHookean()
     varied : whether thickness and moduli differ from triangle to triangle; of the default or ARAP()
+    radius : of the stars of that ARAP
     """
     mesh = strip(thickness=0.1)
     if varied:
         count = len(mesh.triangles)
         mesh = strip(thickness=np.linspace(0.08, 0.12, count))
         lam, mu = np.linspace(2, 1, count), np.linspace(1, 2, count)
-        material = ARAP(mu=mu) if material else StableNeoHookean(lam=lam, mu=mu)
+        material = ARAP(mu=mu, radius=radius) if material else StableNeoHookean(lam=lam, mu=mu)
     along = _along(mesh)
     problem = PosingProblem(
         mesh,

@@ -64,6 +64,7 @@ for (const [file, name] of [
   ["blending.packed", "quartics"],
   ["surface-arap.snapspace", "stars_remainder"],
   ["blending-arap.snapspace", "stars_forms"],
+  ["surface-radius.snapspace", "stars_triangles"],
 ])
   test(`a file that is cut off or altered is refused: ${file}`, () => {
     const whole = bytes(file);

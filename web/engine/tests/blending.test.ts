@@ -36,6 +36,8 @@ for (const [name, ending, kind] of [
   ["blending-shell", "packed", "cubature"],
   ["blending-arap", "snapspace", "stars"],
   ["blending-arap", "packed", "stars"],
+  ["blending-radius", "snapspace", "stars"],
+  ["blending-radius", "packed", "stars"],
 ])
   test(`blends are those of Session: ${name}.${ending}`, async () => {
     const { frames, diagonal, leading, ends } = expected<Blends>(`${name}.json`);
@@ -52,6 +54,7 @@ for (const [name, ending, kind] of [
     for (const frame of frames) {
       const report = session.blend(frame.weights);
       assert.equal(report.status, "converged");
+      session.solve(); // where the last iteration ends hangs on rounding, and small residuals on that
       isValue(report.value, frame.value);
       reconstruct(model.space, session.q, shape);
       assert.ok(distance(shape, frame.surface) < 1e-4 * diagonal);

@@ -1,0 +1,65 @@
+"""The material of `interpolate`, from its options."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import click
+
+from ..material import ARAP, MATERIALS, Material, StableNeoHookean, material_class
+from .shell_pose_files import check_shell_options
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+_OPTIONS = (
+    click.option(
+        "--material",
+        "kind",
+        type=click.Choice(sorted(MATERIALS)),
+        help=f"Material of the body; stvk is the paper's [default: {StableNeoHookean.kind}, or "
+        f"{ARAP.kind} with --shell].",
+    ),
+    click.option("--lam", type=float, default=1.0, show_default=True, help="First Lame parameter."),
+    click.option("--mu", type=float, default=1.0, show_default=True, help="Second Lame parameter."),
+    click.option(
+        "--radius",
+        type=float,
+        metavar="SHARE",
+        help=f"With --shell and {ARAP.kind}: radius of the neighbourhoods that are rigid, relative "
+        "to the diagonal; 0.015 is a good start. Fine surfaces then blend like coarser ones, and "
+        "models take a fraction of the time. Their frames have no certificates [default: one ring "
+        "of triangles].",
+    ),
+)
+
+
+def material_options(command: Command) -> Command:
+    """Adds the options of the material to a command."""
+    for option in reversed(_OPTIONS):
+        command = option(command)
+    return command
+
+
+def blend_material(
+    kind: str | None, *, lam: float, mu: float, radius: float | None, shell: bool
+) -> Material:
+    """The material of these options, checked against `--shell`.
+
+    Raises
+    ------
+    ValueError
+        For a material that a shell cannot have, options on the command line that do not go with
+        `--shell`, or a radius of another material.
+    """
+    chosen = kind or (ARAP if shell else StableNeoHookean).kind
+    if shell:
+        check_shell_options(chosen)
+    if radius is None:
+        return material_class(chosen).from_lame(lam=lam, mu=mu)
+    if not shell or chosen != ARAP.kind:
+        raise ValueError(
+            f"--radius is for surfaces that are as rigid as possible; give --shell and "
+            f"--material {ARAP.kind} as well, or leave it out"
+        )
+    return ARAP(mu=mu, radius=radius)
