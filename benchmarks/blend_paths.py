@@ -3,6 +3,7 @@
     python benchmarks/blend_paths.py                       # generated sets, and those of the meshes
     python benchmarks/blend_paths.py --set lizard-4 lion   # some of them
     python benchmarks/blend_paths.py --shell --material arap --set lizard-4 lion   # as surfaces
+    python benchmarks/blend_paths.py --shell --material arap --radius 0.015 --set lion
 
 A path goes from one pose to another in steps of 1 % of the weight, in a live session. Distances are
 the largest of any vertex, relative to the diagonal of the first pose. Some unseen blends are solved
@@ -130,7 +131,7 @@ def built(
 
 def figures(name: str, kind: str, args: argparse.Namespace) -> Iterator[dict[str, Any]]:
     poses = read(name, shell=args.shell)
-    material = ss.MATERIALS[kind]()
+    material = ss.ARAP(radius=args.radius) if kind == ss.ARAP.kind else ss.MATERIALS[kind]()
     begin = time.perf_counter()
     problem = ss.InterpolationProblem(poses, material=material)
     model, snapshots = built(problem, args)
@@ -157,6 +158,7 @@ def figures(name: str, kind: str, args: argparse.Namespace) -> Iterator[dict[str
     yield {
         "set": name,
         "material": kind,
+        "radius": args.radius,
         "poses": len(poses),
         "longest over median step": float(max(steps)),
         "there against back": there_back,
@@ -180,6 +182,7 @@ def main() -> None:
     parser.add_argument("--set", nargs="+", choices=SETS, default=list(SETS))
     parser.add_argument("--material", nargs="+", default=["stvk", "stable-neo-hookean"])
     parser.add_argument("--shell", action="store_true", help="blend surfaces, without tets")
+    parser.add_argument("--radius", type=float, default=0.0, help="of the stars of arap")
     parser.add_argument("--target-error", type=float, default=0.005, metavar="SHARE")
     parser.add_argument("--samples", type=int, default=40, help="number of samples, for stvk")
     parser.add_argument("--dimension", type=int, default=30, help="d, for stvk")

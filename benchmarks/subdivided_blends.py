@@ -2,6 +2,7 @@
 
     python benchmarks/subdivided_blends.py                       # the lion, and to 500,000 vertices
     python benchmarks/subdivided_blends.py --parts 1 2 3         # smaller
+    python benchmarks/subdivided_blends.py --parts 1 2 3 --radius 0.015
     python benchmarks/subdivided_blends.py --set dog --parts 1 4 --poses 3 --most-samples 160
 
 Every edge of all poses is split into so many equal parts, and every triangle into their square,
@@ -119,7 +120,7 @@ def figures(poses: ss.ShellPoses, args: argparse.Namespace, parts: int) -> dict[
     clock = Clock()
     clock.begins("poses")
     finer = finer_poses(poses, parts, args.poses)
-    problem = ss.InterpolationProblem(finer)
+    problem = ss.InterpolationProblem(finer, material=ss.ARAP(radius=args.radius))
     options = SearchOptions(target_error=args.target_error, most_samples=args.most_samples)
     begin = np.array([time.perf_counter(), time.process_time()])
     model, search = built(problem, options, clock)
@@ -165,6 +166,7 @@ def main() -> None:
     parser.add_argument("--set", choices=blend_paths.SETS, default="lion")
     parser.add_argument("--parts", type=int, nargs="+", default=[1, 10], help="of every edge")
     parser.add_argument("--poses", type=int, default=2, help="the first ones of the set")
+    parser.add_argument("--radius", type=float, default=0.0, help="of the stars")
     parser.add_argument("--target-error", type=float, metavar="SHARE")
     parser.add_argument("--most-samples", type=int, default=20)
     parser.add_argument("--frames", type=int, default=600)
