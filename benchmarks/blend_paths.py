@@ -3,7 +3,7 @@
     python benchmarks/blend_paths.py                       # generated sets, and those of the meshes
     python benchmarks/blend_paths.py --set lizard-4 lion   # some of them
     python benchmarks/blend_paths.py --shell --material arap --set lizard-4 lion   # as surfaces
-    python benchmarks/blend_paths.py --shell --material arap --radius 0.015 --set lion
+    python benchmarks/blend_paths.py --shell --material arap --radius 0.02 --set lion
 
 A path goes from one pose to another in steps of 1 % of the weight, in a live session. Distances are
 the largest of any vertex, relative to the diagonal of the first pose. Some unseen blends are solved

@@ -2,7 +2,7 @@
 
     python benchmarks/subdivided_blends.py                       # the lion, and to 500,000 vertices
     python benchmarks/subdivided_blends.py --parts 1 2 3         # smaller
-    python benchmarks/subdivided_blends.py --parts 1 2 3 --radius 0.015
+    python benchmarks/subdivided_blends.py --parts 1 2 3 --radius 0.02
     python benchmarks/subdivided_blends.py --set dog --parts 1 4 --poses 3 --most-samples 160
 
 Every edge of all poses is split into so many equal parts, and every triangle into their square,

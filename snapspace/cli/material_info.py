@@ -13,7 +13,10 @@ Figures = dict[str, Any]
 
 
 def material_figures(material: Material) -> Figures:
-    """The model and its moduli, for JSON; {"min", "max"} where they differ from tet to tet."""
+    """The model, its moduli and settings, for JSON.
+
+    Moduli that differ from tet to tet are {"min", "max"}. Settings of zero are left out.
+    """
     figures: Figures = {"model": material.kind}
     for name in material.names():
         value = getattr(material, name)
@@ -23,7 +26,7 @@ def material_figures(material: Material) -> Figures:
             if varies
             else float(np.min(value))
         )
-    return figures
+    return figures | {name: value for name, value in material.settings.items() if value}
 
 
 def material_text(figures: Figures) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from snapspace import InterpolationModel, ShellPoses, load, read_surface, write_surface
+from snapspace import ARAP, InterpolationModel, ShellPoses, load, read_surface, write_surface
 
 from ..shells.sheets import rolled, sheet
 from .conftest import Run
@@ -47,6 +47,20 @@ def test_open_surfaces_are_blended_and_written(run: Run, tmp_path: Path, poses: 
     np.testing.assert_allclose(lengths, wanted, rtol=5e-3)
 
 
+def test_rigid_neighbourhoods_may_have_a_radius(
+    run: Run, tmp_path: Path, poses: list[Path]
+) -> None:
+    path = tmp_path / "sheet.snapspace"
+    words = ("--shell", 0.1, "--radius", 0.2, *SMALL, "-o", path)
+    run("interpolate", *poses, *words)
+    model = load(path)
+    assert model.problem.material == ARAP(radius=0.2)
+    assert model.error_estimator is None, "its frames have no certificates"
+    assert "as rigid as possible, mu 1, radius 0.2" in run("info", path).err
+    refused = run("interpolate", *poses, "--radius", 0.2, "-o", path)
+    assert refused.code == 2 and "--radius is for surfaces that are" in refused.err
+
+
 def test_seams_of_texture_coordinates_are_no_cuts(run: Run, tmp_path: Path) -> None:
     """Two triangles with four corners at their common edge, as .obj files have them at seams."""
     paths = []
@@ -70,6 +84,8 @@ def test_seams_of_texture_coordinates_are_no_cuts(run: Run, tmp_path: Path) -> N
         (["--edge-length", 0.1], "--edge-length is for poses that are tets or filled with tets"),
         (["--accept-inverted"], "--accept-inverted is for poses that are tets"),
         (["--material", "corotational"], "--material corotational has no form for shells"),
+        (["--material", "stvk", "--radius", 0.1], "--radius is for surfaces that are as rigid as"),
+        (["--radius", 2], "radius is 2.0, but must be a number from 0 to 1"),
     ],
 )
 def test_options_of_tets_are_refused(
