@@ -15,7 +15,7 @@ Figures = dict[str, Any]
 def material_figures(material: Material) -> Figures:
     """The model, its moduli and settings, for JSON.
 
-    Moduli that differ from tet to tet are {"min", "max"}. Settings of zero are left out.
+    Moduli that differ from tet to tet are {"min", "max"}.
     """
     figures: Figures = {"model": material.kind}
     for name in material.names():
@@ -26,7 +26,7 @@ def material_figures(material: Material) -> Figures:
             if varies
             else float(np.min(value))
         )
-    return figures | {name: value for name, value in material.settings.items() if value}
+    return figures | material.settings
 
 
 def material_text(figures: Figures) -> str:

@@ -29,7 +29,7 @@ class BlendedStars(BlendedElements):
     Parameters
     ----------
     tets : (r,) int32
-        Which vertices of the mesh, ascending.
+        Which stars of the surface, ascending: with rings, the vertices that they are around.
     weights : (r,) float64
         The area in the first pose that each star stands for, > 0.
     rows : (poses, r, 9, d) float32
@@ -85,7 +85,7 @@ class BlendedStars(BlendedElements):
         *,
         forms: FloatArray | None = None,
     ) -> BlendedStars:
-        """Makes the cubature of the stars of some vertices, for a subspace at the mean shape.
+        """Makes the cubature of some stars, for a subspace at the mean shape.
 
         With all stars, weighted by their areas in the first pose, it is the exact energy. `forms`
         are computed if they are not given.
@@ -93,7 +93,7 @@ class BlendedStars(BlendedElements):
         Raises
         ------
         ValueError
-            As for the constructor, or for a vertex that the mesh does not have.
+            As for the constructor, or for a star that the surface does not have.
         """
         poses = StarPoses(problem)
         check_in_mesh(tets, len(poses.measures), who="BlendedStars")

@@ -19,7 +19,7 @@ FloatArray = NDArray[np.float64]
 
 
 class Elements(Protocol):
-    """The elements of a body: tets, triangles and hinges, or the stars of vertices."""
+    """The elements of a body: tets, triangles and hinges, or stars."""
 
     @property
     def measures(self) -> FloatArray:
@@ -139,7 +139,7 @@ def element_count(problem: Problem) -> int:
 
 
 def has_stars(problem: Problem) -> bool:
-    """Whether the elements are the stars of vertices: of a surface that is as rigid as possible."""
+    """Whether the elements are stars: of a surface that is as rigid as possible."""
     return is_of_stars(problem.mesh, problem.material)
 
 

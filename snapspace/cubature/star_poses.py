@@ -1,4 +1,4 @@
-"""StarPoses: the stars of a surface's vertices in all poses of a blend."""
+"""StarPoses: the stars of a surface in all poses of a blend."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ FloatArray = NDArray[np.float64]
 
 
 class StarPoses:
-    """The stars of a blend of `ARAP`. Every pose has its own, at the same vertices.
+    """The stars of a blend of `ARAP`. Every pose has its own, with the same hats.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ class StarPoses:
 
     @property
     def measures(self) -> FloatArray:
-        """A third of the area around each vertex in the first pose, (n,)."""
+        """The areas of the stars in the first pose, (s,)."""
         return self.stars[0].measures
 
     def rows(self, basis: FloatArray, which: NDArray[np.int32]) -> NDArray[np.float32]:

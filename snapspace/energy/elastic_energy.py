@@ -50,7 +50,8 @@ class ElasticEnergy:
     A shell of `ARAP` has no hinges. Each vertex has a rotation R, the one nearest to the
     deformation gradients F of its triangles together. The energy is the sum over vertices and their
     triangles of mu * thickness * a third of the area * |F - R|^2: spokes and rims (Sorkine, Alexa
-    2007; Chao, Pinkall, Sanan, Schroeder 2010).
+    2007; Chao, Pinkall, Sanan, Schroeder 2010). With a radius larger neighbourhoods share R, see
+    `ARAP`.
 
     Every method takes a shape vector x (3n,) of positions, or vertices (n, 3), and raises
     ValueError for another size. Energies are invariant under rigid motions of x and vanish at rest.

@@ -123,7 +123,7 @@ def shell_materials(
 
 
 def is_of_stars(mesh: Body, material: Material) -> bool:
-    """Whether the elements are the stars of vertices: of a surface that is as rigid as possible."""
+    """Whether the elements are stars: of a surface that is as rigid as possible."""
     return isinstance(mesh, ShellMesh) and isinstance(material, ARAP)
 
 

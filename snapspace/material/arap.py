@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from numbers import Real
 from typing import ClassVar
 
 from .material import SETTING
@@ -41,7 +42,7 @@ class ARAP(ShearMaterial):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not (isinstance(self.radius, (int, float)) and 0.0 <= self.radius <= 1.0):
+        if not (isinstance(self.radius, Real) and 0.0 <= self.radius <= 1.0):
             raise ValueError(
                 f"ARAP: radius is {self.radius!r}, but must be a number from 0 to 1, relative to "
                 "the diagonal"

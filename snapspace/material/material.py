@@ -75,8 +75,9 @@ class Material(ABC):
 
     @property
     def settings(self) -> dict[str, float]:
-        """The fields that are not moduli, by name."""
-        return {name: getattr(self, name) for name in self.setting_names()}
+        """The fields that are not moduli, by name, where they are not the default."""
+        given = {name: getattr(self, name) for name in self.setting_names()}
+        return {name: x for name, x in given.items() if x != getattr(type(self), name)}
 
     def with_moduli(self: Own, moduli: Mapping[str, Any]) -> Own:
         """The material with other moduli, by name, and the same settings."""

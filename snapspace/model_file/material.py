@@ -58,6 +58,5 @@ def material(arrays: Arrays, content: dict[str, Any], tets: int) -> Material:
     for column, (name, value) in enumerate(moduli.items()):
         if value is None:
             moduli[name] = arrays[MODULI][:, column]
-    # older files had no settings: their surfaces had one ring around every vertex
-    settings = {name: content.get(name, 0.0) for name in kind.setting_names()}
+    settings = {name: content[name] for name in kind.setting_names() if name in content}
     return kind(**moduli, **settings)
