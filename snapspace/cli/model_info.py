@@ -66,8 +66,9 @@ def energy_text(model: ReducedModel) -> str:
     if model.cubature is not None:
         what = "tets"
         if isinstance(model.problem.mesh, ShellMesh):
-            stars = has_stars(model.problem)
-            what = "vertices with their triangles" if stars else "triangles and hinges"
+            rings = not model.problem.material.settings.get("radius")
+            stars = "vertices with their triangles" if rings else "rigid neighbourhoods"
+            what = stars if has_stars(model.problem) else "triangles and hinges"
         return f"cubature of {len(model.cubature.tets)} {what}"
     if isinstance(model, InterpolationModel):
         return f"exact quartics of {len(model.problem.poses)} poses"

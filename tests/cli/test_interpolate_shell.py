@@ -56,7 +56,8 @@ def test_rigid_neighbourhoods_may_have_a_radius(
     model = load(path)
     assert model.problem.material == ARAP(radius=0.2)
     assert model.error_estimator is None, "its frames have no certificates"
-    assert "as rigid as possible, mu 1, radius 0.2" in run("info", path).err
+    told = run("info", path).err
+    assert "as rigid as possible, mu 1, radius 0.2" in told and "rigid neighbourhoods" in told
     refused = run("interpolate", *poses, "--radius", 0.2, "-o", path)
     assert refused.code == 2 and "--radius is for surfaces that are" in refused.err
 
