@@ -25,8 +25,7 @@ void bind_stars(nb::module_& m) {
                 copy_to_array(self.shares.data(), {self.shares.size()}));
           },
           "First triangles (s + 1,), triangles (t,) and shares (t,): a triangle's weight in a star "
-          "is "
-          "the share of a third of its area times its modulus.")
+          "is the share of a third of its area times its modulus.")
       .def(
           "numbers",
           [](const VertexStars& self) {
@@ -59,8 +58,7 @@ void bind_stars(nb::module_& m) {
                 copy_to_array(self.couplings.data(), {self.couplings.size()}));
           },
           "First neighbours (n + 1,), vertices (e,) and couplings (e,): the Dirichlet energy is "
-          "the "
-          "sum of coupling * u_i . (u_j - u_i) over all vertices and their neighbours.");
+          "the sum of coupling * u_i . (u_j - u_i) over all vertices and their neighbours.");
 }
 
 }  // namespace snapspace

@@ -75,7 +75,7 @@ VertexStars::VertexStars(const RestShape& rest, const TetMaterial& material, con
       weights[star] += shares[k] * double_.triangles[triangles[k]].weight;
       areas[star] += shares[k] * rest.tets[triangles[k]].volume / 3.0;
     }
-  find_corners();
+  find_corners(hats);
   stops = star_stops(first_corner, corners, rest.vertex_count);
   gradients.resize(3 * corners.size());
   frames.resize(9 * weights.size());
@@ -124,14 +124,13 @@ void VertexStars::find_triangles(const Incidence& incidence, int vertex_count,
     for (std::size_t k = begin; k < triangles.size(); ++k)
       shares.push_back(std::exchange(share[triangles[k]], 0.0));
     first_triangle.push_back(static_cast<std::int32_t>(triangles.size()));
-    centers_.push_back(hats.vertices[hats.first[star]]);
   }
 }
 
-void VertexStars::find_corners() {
+void VertexStars::find_corners(const StarHats& hats) {
   first_corner.push_back(0);
   for (int star = 0; star < count(); ++star) {
-    const std::int32_t center = centers_.empty() ? star : centers_[star];
+    const std::int32_t center = hats.of_all_vertices() ? star : hats.vertices[hats.first[star]];
     const std::size_t begin = corners.size();
     corners.push_back(center);
     for (int k = first_triangle[star]; k < first_triangle[star + 1]; ++k)

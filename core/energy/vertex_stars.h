@@ -94,7 +94,7 @@ class VertexStars {
   };
 
   void find_triangles(const Incidence& incidence, int vertex_count, const StarHats& hats);
-  void find_corners();
+  void find_corners(const StarHats& hats);
   void find_couplings(const Incidence& incidence, int vertex_count);
   void make_star(int star);
   template <class T>
@@ -107,7 +107,6 @@ class VertexStars {
   template <class Real, class Turn>
   Sum<Real> add_stars(int begin, int end, const Real* u, Real* gradient, const Turn& turn) const;
 
-  std::vector<std::int32_t> centers_;  // empty: all vertices
   Numbers<double> double_;
   Numbers<float> single_;
   // inverse of tr(M) I - M, nine per star: turns the torque of a small displacement into a rotation

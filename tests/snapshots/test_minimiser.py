@@ -70,8 +70,8 @@ def test_fast_and_newton_agree_for_soft_and_hard_handles(stiffness: float) -> No
     assert error(fast, newton).max() < 1e-6
 
 
-@pytest.mark.parametrize(("method", "rows"), [("Newton-CG", [0, 1]), ("L-BFGS-B", [1])])
-def test_scipy_finds_the_same_shapes(minimisers: Snapshots, method: str, rows: list[int]) -> None:
+@pytest.mark.parametrize("method", ["Newton-CG", "L-BFGS-B"])
+def test_scipy_finds_the_same_shapes(minimisers: Snapshots, method: str) -> None:
     """SciPy starts at rest, with F assembled in NumPy, and uses no code of the solvers."""
     problem = minimisers.problem
     pull = np.zeros(problem.mesh.vertices.shape)
@@ -84,7 +84,7 @@ def test_scipy_finds_the_same_shapes(minimisers: Snapshots, method: str, rows: l
         "Newton-CG": {"hessp": hessian_product, "options": {"xtol": 1e-12}},
         "L-BFGS-B": {"options": {"maxiter": 20_000, "maxfun": 20_000, "ftol": 0.0, "gtol": 1e-10}},
     }
-    for row in rows:
+    for row in range(2):
         found = minimize(
             problem.value_and_gradient,
             problem.mesh.vertices.reshape(-1),
