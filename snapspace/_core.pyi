@@ -670,12 +670,16 @@ class BlendedStarsLoop(BlendingLoop):
 class ResidualProbe:
     """The full objective's gradient at sampled vertices."""
 
-    def __init__(self, tau: NDArray[numpy.float64], modes: NDArray[numpy.float64], rests: NDArray[numpy.float64], tets: NDArray[numpy.int32], material: Material, sampled: NDArray[numpy.int32], sample_weights: NDArray[numpy.float64], *, pinned: NDArray[numpy.int32], handles: NDArray[numpy.int32], pulls: NDArray[numpy.float64], arms: NDArray[numpy.float64]) -> None: ...
-
     def norm(self, q: NDArray[numpy.float64], *, offsets: NDArray[numpy.float64] | None = None, weights: NDArray[numpy.float64] | None = None) -> float:
         """
         Estimate of the residual's norm, for offsets (h, 3, 4) or weights (k,).
         """
+
+def element_probe(tau: NDArray[numpy.float64], modes: NDArray[numpy.float64], rests: NDArray[numpy.float64], tets: NDArray[numpy.int32], material: Material, sampled: NDArray[numpy.int32], weights: NDArray[numpy.float64], *, pinned: NDArray[numpy.int32], handles: NDArray[numpy.int32], pulls: NDArray[numpy.float64], arms: NDArray[numpy.float64]) -> ResidualProbe:
+    """The probe of a body whose tets are independent."""
+
+def star_probe(origins: NDArray[numpy.float64], modes: NDArray[numpy.float32], material: Material, part_stars: NDArray[numpy.int32], part_samples: NDArray[numpy.int32], part_vectors: NDArray[numpy.float64], weights: NDArray[numpy.float64], *, pinned: NDArray[numpy.int32], handles: NDArray[numpy.int32], pulls: NDArray[numpy.float64], arms: NDArray[numpy.float64]) -> ResidualProbe:
+    """The probe of a surface that is as rigid as possible."""
 
 def peak_flops(*, single: bool, repeats: int = 20) -> float:
     """Peak floating-point operations per second of one thread in this build."""

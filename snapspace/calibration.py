@@ -14,7 +14,6 @@ from .certificate import (
     ResidualSample,
     grown,
     growth_exponent,
-    has_certificates,
     residual_sample,
     rest_size,
     scalar_diagonal,
@@ -80,8 +79,7 @@ def calibrate(
     ------
     ValueError
         For fewer than two samples, if fewer than two full solutions converged, for samples or a
-        seed together with a reference, or for a reference that `validate` would refuse; for an
-        `ARAP` with a radius.
+        seed together with a reference, or for a reference that `validate` would refuse.
     KeyboardInterrupt
         On Ctrl-C.
 
@@ -90,11 +88,6 @@ def calibrate(
     The bounds hold for parameters drawn like the samples, uniformly from the domain, and for frames
     that start at the rest or mean shape. Another dimension of the model needs a new calibration.
     """
-    if not has_certificates(model.problem):
-        raise ValueError(
-            "calibrate: frames of an ARAP with a radius have no certificates; leave the model as "
-            "it is, or build one of radius 0"
-        )
     full = _full(model, reference, samples=samples, seed=seed, threads=threads, progress=progress)
     typical = _parameters(model.problem.domain, TYPICAL_FRAMES, seed=seed or 0, stream=3)
     chosen = _sample(model, typical, threads=threads)

@@ -23,6 +23,7 @@ namespace nb = nanobind;
 using VectorIn = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using MatrixIn = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using TensorIn = nb::ndarray<const double, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
+using SingleTensorIn = nb::ndarray<const float, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
 using IndexMatrixIn = nb::ndarray<const std::int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using IndexVectorIn = nb::ndarray<const std::int32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using DoublesOut = nb::ndarray<nb::numpy, double>;

@@ -5,9 +5,7 @@ namespace snapspace {
 
 namespace {
 
-using RowsIn = nb::ndarray<const float, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
-
-live::CubatureArrays cubature_arrays(const RowsIn& rows, const VectorIn& weights,
+live::CubatureArrays cubature_arrays(const SingleTensorIn& rows, const VectorIn& weights,
                                      const MaterialField& material) {
   require(rows.shape(0) >= 1 && rows.shape(1) == 9 && rows.shape(2) >= 1 &&
               weights.size() == rows.shape(0),
@@ -26,7 +24,7 @@ live::PoseArrays pose_arrays(const TensorIn& corners, std::size_t tets) {
 }
 
 /// The arguments of BlendedStars and of its loop.
-live::StarArrays star_arrays(const RowsIn& rows, const VectorIn& weights,
+live::StarArrays star_arrays(const SingleTensorIn& rows, const VectorIn& weights,
                              const MaterialField& material, const TensorIn& origins,
                              const TensorIn& forms) {
   const std::size_t stars = weights.size(), poses = forms.shape(0), d = rows.shape(2);
@@ -57,8 +55,8 @@ void bind_blended(nb::module_& m) {
       m, "BlendedCubature", "Blended energy of several poses as a weighted sum over few tets.")
       .def(
           "__init__",
-          [](BlendedCubature* self, RowsIn rows, VectorIn weights, const MaterialField& material,
-             TensorIn corners) {
+          [](BlendedCubature* self, SingleTensorIn rows, VectorIn weights,
+             const MaterialField& material, TensorIn corners) {
             new (self) BlendedCubature(live::blended_cubature(
                 cubature_arrays(rows, weights, material), pose_arrays(corners, weights.size())));
           },
@@ -68,8 +66,8 @@ void bind_blended(nb::module_& m) {
       "Blended ARAP energy of a surface as a weighted sum over few stars, with a quadratic form.")
       .def(
           "__init__",
-          [](BlendedStars* self, RowsIn rows, VectorIn weights, const MaterialField& material,
-             TensorIn origins, TensorIn forms) {
+          [](BlendedStars* self, SingleTensorIn rows, VectorIn weights,
+             const MaterialField& material, TensorIn origins, TensorIn forms) {
             new (self) BlendedStars(
                 live::blended_stars(star_arrays(rows, weights, material, origins, forms)));
           },
@@ -80,7 +78,7 @@ void bind_blended(nb::module_& m) {
       m, "BlendedCubatureLoop", "The live loop of blending with a cubature instead of quartics.")
       .def(
           "__init__",
-          [](BlendedCubatureLoop* self, RowsIn rows, VectorIn weights,
+          [](BlendedCubatureLoop* self, SingleTensorIn rows, VectorIn weights,
              const MaterialField& material, TensorIn corners) {
             new (self)
                 BlendedCubatureLoop(live::blending_solver(cubature_arrays(rows, weights, material),
@@ -92,8 +90,8 @@ void bind_blended(nb::module_& m) {
       m, "BlendedStarsLoop", "The live loop of blending with stars instead of quartics.")
       .def(
           "__init__",
-          [](BlendedStarsLoop* self, RowsIn rows, VectorIn weights, const MaterialField& material,
-             TensorIn origins, TensorIn forms) {
+          [](BlendedStarsLoop* self, SingleTensorIn rows, VectorIn weights,
+             const MaterialField& material, TensorIn origins, TensorIn forms) {
             new (self) BlendedStarsLoop(
                 live::blending_solver(star_arrays(rows, weights, material, origins, forms)),
                 kNotDefinite);
@@ -122,7 +120,7 @@ void bind_cubature(nb::module_& m) {
                                     "Elastic energy as a weighted sum over few tets.")
       .def(
           "__init__",
-          [](Cubature* self, RowsIn rows, VectorIn weights, const MaterialField& material) {
+          [](Cubature* self, SingleTensorIn rows, VectorIn weights, const MaterialField& material) {
             live::TetPointer function = live::cubature(cubature_arrays(rows, weights, material));
             live::TetFunction* sum = function.get();
             new (self) Cubature{{{std::move(function)}, sum}};
@@ -133,8 +131,8 @@ void bind_cubature(nb::module_& m) {
       m, "CubatureLoop", "The live loop of posing with a cubature instead of a quartic.")
       .def(
           "__init__",
-          [](CubatureLoop* self, RowsIn rows, VectorIn weights, const MaterialField& material,
-             MatrixIn K, TensorIn L, TensorIn S) {
+          [](CubatureLoop* self, SingleTensorIn rows, VectorIn weights,
+             const MaterialField& material, MatrixIn K, TensorIn L, TensorIn S) {
             constexpr auto kMismatch =
                 "rows (tets, 9, d), K (d,d), L (h,d,12), S (h,4,4) do not match";
             const live::CubatureArrays elastic = cubature_arrays(rows, weights, material);

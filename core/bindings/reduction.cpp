@@ -8,7 +8,6 @@ namespace snapspace {
 
 namespace {
 
-using FloatsIn = nb::ndarray<const float, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
 using FloatsOut = nb::ndarray<float, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
 void bind_training(nb::module_& m) {
@@ -32,7 +31,8 @@ void bind_training(nb::module_& m) {
       "triangles and hinges of a shell.");
   m.def(
       "training_columns",
-      [](FloatsIn rows, FloatsIn stresses, FloatsIn along, FloatsOut columns, int threads) {
+      [](SingleTensorIn rows, SingleTensorIn stresses, SingleTensorIn along, FloatsOut columns,
+         int threads) {
         const std::size_t candidates = rows.shape(0), states = stresses.shape(0);
         require(stresses.shape(1) == candidates && stresses.shape(2) == rows.shape(1) &&
                     along.shape(0) == states && along.shape(1) == rows.shape(2),

@@ -3,12 +3,18 @@
 #include <cstdint>
 #include <memory>
 
+#include "online/element_probe.h"
 #include "online/session.h"
+#include "online/star_probe.h"
 
 using snapspace::TetMaterial;
+using snapspace::online::ElementProbe;
 using snapspace::online::ProbeBody;
+using snapspace::online::ProbePins;
+using snapspace::online::ProbeSample;
+using snapspace::online::ProbeStars;
 using snapspace::online::read_material;
-using snapspace::online::ResidualProbe;
+using snapspace::online::StarProbe;
 
 namespace {
 
@@ -17,33 +23,44 @@ bool all_below(const int* indices, std::size_t count, int end) {
 }
 
 bool has_arrays(const snapspace_probe& probe) {
-  if (probe.corners < 4 || probe.tets < 1 || probe.rests < 1 || probe.samples < 1 || probe.pins < 0)
-    return false;
-  if (!probe.tau || !probe.modes || !probe.rest_shapes || !probe.tet_corners || !probe.sampled ||
-      !probe.weights)
-    return false;
-  return probe.pins == 0 || (probe.pinned && probe.pin_handles && probe.pulls && probe.arms);
+  return probe.corners >= 4 && probe.tets >= 1 && probe.rests >= 1 && probe.samples >= 1 &&
+         probe.tau && probe.modes && probe.rest_shapes && probe.tet_corners && probe.sampled &&
+         probe.weights;
 }
 
-/// Whether rests and pins match the session, and all indices are in range.
-bool fits(const snapspace_session& session, const snapspace_probe& probe) {
+bool has_arrays(const snapspace_star_probe& probe) {
+  return probe.stars >= 1 && probe.rests >= 1 && probe.samples >= 1 && probe.parts >= 1 &&
+         probe.origins && probe.modes && probe.part_stars && probe.part_samples &&
+         probe.part_vectors && probe.weights;
+}
+
+/// Whether rests and pins match the session; pins are indices below `places`.
+template <class Probe>
+bool fits(const snapspace_session& session, const Probe& probe, int places) {
   const int handles = session.blends() ? 0 : static_cast<int>(session.state.size() / 12);
   const int rests = session.blends() ? static_cast<int>(session.state.size()) : 1;
-  return probe.rests == rests &&
-         all_below(probe.tet_corners, 4 * std::size_t(probe.tets), probe.corners) &&
-         all_below(probe.sampled, probe.samples, probe.corners) &&
-         all_below(probe.pinned, probe.pins, probe.corners) &&
-         all_below(probe.pin_handles, probe.pins, handles);
+  if (probe.rests != rests || probe.pins < 0) return false;
+  return probe.pins == 0 || (probe.pinned && probe.pin_handles && probe.pulls && probe.arms &&
+                             all_below(probe.pinned, probe.pins, places) &&
+                             all_below(probe.pin_handles, probe.pins, handles));
+}
+
+template <class Probe>
+ProbePins pins_of(const Probe& probe) {
+  return {probe.pins, probe.pinned, probe.pin_handles, probe.pulls, probe.arms};
 }
 
 }  // namespace
 
 int snapspace_set_probe(snapspace_session* session, const snapspace_probe* probe) {
-  if (!session || !probe || !has_arrays(*probe) || !fits(*session, *probe))
+  if (!session || !probe || !has_arrays(*probe) || !fits(*session, *probe, probe->corners) ||
+      !all_below(probe->tet_corners, 4 * std::size_t(probe->tets), probe->corners) ||
+      !all_below(probe->sampled, probe->samples, probe->corners))
     return SNAPSPACE_BAD_ARGUMENT;
   TetMaterial material;
   const int code = read_material(probe->material, probe->tets, material);
   if (code != SNAPSPACE_OK) return code;
+  if (snapspace::is_of_stars(material.kind)) return SNAPSPACE_BAD_ARGUMENT;
   const ProbeBody body = {static_cast<int>(session->q.size()),
                           probe->corners,
                           probe->tets,
@@ -53,10 +70,33 @@ int snapspace_set_probe(snapspace_session* session, const snapspace_probe* probe
                           probe->rest_shapes,
                           probe->tet_corners,
                           material};
-  session->probe = std::make_unique<ResidualProbe>(
-      body, snapspace::online::ProbeSample{probe->samples, probe->sampled, probe->weights},
-      snapspace::online::ProbePins{probe->pins, probe->pinned, probe->pin_handles, probe->pulls,
-                                   probe->arms});
+  const ProbeSample sample = {probe->samples, probe->sampled, probe->weights};
+  session->probe = std::make_unique<ElementProbe>(body, sample, pins_of(*probe));
+  return SNAPSPACE_OK;
+}
+
+int snapspace_set_star_probe(snapspace_session* session, const snapspace_star_probe* probe) {
+  if (!session || !probe || !has_arrays(*probe) || !fits(*session, *probe, probe->samples) ||
+      !all_below(probe->part_stars, probe->parts, probe->stars) ||
+      !all_below(probe->part_samples, probe->parts, probe->samples))
+    return SNAPSPACE_BAD_ARGUMENT;
+  TetMaterial material;
+  const int code = read_material(probe->material, probe->rests * probe->stars, material);
+  if (code != SNAPSPACE_OK) return code;
+  if (!snapspace::is_of_stars(material.kind)) return SNAPSPACE_BAD_ARGUMENT;
+  const ProbeStars stars = {static_cast<int>(session->q.size()),
+                            probe->rests,
+                            probe->stars,
+                            probe->samples,
+                            probe->origins,
+                            probe->modes,
+                            material,
+                            probe->parts,
+                            probe->part_stars,
+                            probe->part_samples,
+                            probe->part_vectors,
+                            probe->weights};
+  session->probe = std::make_unique<StarProbe>(stars, pins_of(*probe));
   return SNAPSPACE_OK;
 }
 

@@ -32,7 +32,8 @@ inline void add_modes(const Entry* modes, std::size_t stride, int count, const d
 /// Reads each mode once, in blocks whose sums stay in the first-level cache, and so takes the time
 /// of reading the basis.
 /// @param modes  dimension x size, row-major
-inline void reconstruct(std::size_t size, int dimension, const double* tau, const double* modes,
+template <class Entry>
+inline void reconstruct(std::size_t size, int dimension, const double* tau, const Entry* modes,
                         const double* q, double* shape) {
   constexpr std::size_t kBlock = 2048;
   for (std::size_t begin = 0; begin < size; begin += kBlock) {

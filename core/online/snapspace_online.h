@@ -200,9 +200,7 @@ int snapspace_set_q(snapspace_session* session, const double* q);
 int snapspace_get_vertices(const snapspace_session* session, double* vertices);
 
 /* The tets around some sampled vertices of the body. Their corners are numbered from 0; all arrays
- * of corners are in that order. Of a surface that is as rigid as possible they are the triangles
- * around these vertices and their neighbours, with the last corner twice, and the material is
- * "shell-arap". */
+ * of corners are in that order. */
 typedef struct snapspace_probe {
   int corners;
   int tets;
@@ -222,8 +220,32 @@ typedef struct snapspace_probe {
   const double* arms;          /* pins x 3, from the centroid of the handle at rest */
 } snapspace_probe;
 
-/* Sets the data that snapspace_residual needs. Copies all arrays; allocates memory. */
+/* The same of a surface that is as rigid as possible, whose elements are stars. The gradient at a
+ * sampled vertex is a linear function of the shape plus stress times vector, for each star around
+ * it; with the nine numbers of each star and the linear functions in that order, a pose has
+ * 9 stars + 3 samples numbers. */
+typedef struct snapspace_star_probe {
+  int stars;
+  int rests; /* 1, or the number of poses of a blending session */
+  int samples;
+  int parts;                   /* pairs of a star and a sampled vertex */
+  int pins;                    /* number of sampled vertices in handles; 0 for blending */
+  const double* origins;       /* rests x numbers, at tau */
+  const float* modes;          /* rests x dimension x numbers */
+  snapspace_material material; /* "shell-arap", of rests x stars */
+  const int* part_stars;       /* parts */
+  const int* part_samples;     /* parts */
+  const double* part_vectors;  /* rests x parts x 3 */
+  const double* weights;       /* samples, weights of the squared residuals there */
+  const int* pinned;           /* pins, which samples; the linear functions have their springs */
+  const int* pin_handles;      /* pins */
+  const double* pulls;         /* pins, twice the weights of their springs */
+  const double* arms;          /* pins x 3, from the centroid of the handle at rest */
+} snapspace_star_probe;
+
+/* Set the data that snapspace_residual needs. They copy all arrays and allocate memory. */
 int snapspace_set_probe(snapspace_session* session, const snapspace_probe* probe);
+int snapspace_set_star_probe(snapspace_session* session, const snapspace_star_probe* probe);
 
 /* sqrt(sum_v weight_v |g_v|^2) over the sampled vertices v, with the gradient g of the full
  * objective at the present shape, for the current offsets or weights. SNAPSPACE_WRONG_KIND before a

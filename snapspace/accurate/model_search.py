@@ -9,7 +9,6 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from ..calibration import calibrate
-from ..certificate import has_certificates
 from ..interruptible import begin_abandonable
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
@@ -162,7 +161,7 @@ class ModelSearch:
         }
         provenance: dict[str, Any] = {**best.model.provenance, "accurate": record}
         model = replace(best.model, provenance=provenance)
-        if len(best.unseen) > 1 and has_certificates(self.samples.problem):
+        if len(best.unseen) > 1:
             model = calibrate(model, reference=best.unseen, thorough=False)
         return replace(best, model=model)
 

@@ -28,8 +28,7 @@ _OPTIONS = (
         metavar="SHARE",
         help=f"With --shell and {ARAP.kind}: radius of the neighbourhoods that are rigid, relative "
         "to the diagonal; 0.02 is a good start. Fine surfaces then blend like coarser ones, and "
-        "models take a fraction of the time. Their frames have no certificates [default: one ring "
-        "of triangles].",
+        "models take a fraction of the time [default: one ring of triangles].",
     ),
 )
 

@@ -9,7 +9,6 @@ import numpy as np
 
 from ..accurate import plan_of
 from ..calibration import calibrate
-from ..certificate import has_certificates
 from ..mesh import TetMesh
 from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import Snapshots
@@ -45,13 +44,8 @@ def judged(
 
 
 def with_estimates(model: Model, validation: Validation | None) -> Model:
-    """The model with error estimates for its frames, calibrated with the validation.
-
-    Without them where frames have no certificates.
-    """
+    """The model with error estimates for its frames, calibrated with the validation."""
     if validation is None or len(validation.reference) < 2:
-        return model
-    if not has_certificates(model.problem):
         return model
     return calibrate(model, reference=validation.reference, thorough=False)
 

@@ -10,7 +10,7 @@ from .shell_material import (
     is_of_stars,
     rigidities,
 )
-from .vertex_stars import StarTriangles, VertexStars
+from .vertex_stars import StarParts, StarTriangles, VertexStars
 
 __all__ = [
     "SHELLS",
@@ -18,6 +18,7 @@ __all__ = [
     "ElasticEnergy",
     "PoseEnergies",
     "ShellMaterial",
+    "StarParts",
     "StarTriangles",
     "VertexStars",
     "element_material",

@@ -29,6 +29,19 @@ class StarTriangles(NamedTuple):
     shares: FloatArray
 
 
+class StarParts(NamedTuple):
+    """Pairs of a star and a vertex whose force its stress is part of, vertex by vertex.
+
+    stars : (p,) int32
+    places : (p,) int32, indices of the vertices among those asked for
+    vectors : (p, 3), the force is stress @ vector, for the stress of a star of modulus and area one
+    """
+
+    stars: NDArray[np.int32]
+    places: NDArray[np.int32]
+    vectors: FloatArray
+
+
 class VertexStars:
     """The elements of a surface that is as rigid as possible, for cubatures.
 
@@ -77,6 +90,23 @@ class VertexStars:
         rows = self._gradients[(3 * stars[:, None] + np.arange(3)).reshape(-1)]
         columns_first = self._by_vertex(rows, basis).reshape(len(stars), 3, 3, -1)
         return columns_first.swapaxes(1, 2).reshape(len(stars), 9, -1)
+
+    def parts(self, vertices: NDArray[np.integer[Any]]) -> StarParts:
+        """The stars around some vertices (v,), the same in all poses of a surface."""
+        found = self._gradients.tocsc()[:, vertices].tocoo()  # the three rows of a star in turn
+        vectors = self._weights[found.row] * found.data
+        stars, places = found.row[::3] // 3, found.col[::3]
+        return StarParts(stars.astype(np.int32), places.astype(np.int32), vectors.reshape(-1, 3))
+
+    def dirichlet_forces(
+        self, displacements: FloatArray, vertices: NDArray[np.integer[Any]]
+    ) -> FloatArray:
+        """The Dirichlet energy's gradient by some vertices (v,) at displacements (3n, d).
+
+        An array (v, 3, d).
+        """
+        forces = 2.0 * self._by_vertex(self._dirichlet[vertices], displacements)
+        return forces.reshape(len(vertices), 3, -1)
 
     @single_threaded_blas
     def remainder(self, basis: FloatArray) -> FloatArray:

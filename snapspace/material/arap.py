@@ -27,7 +27,7 @@ class ARAP(ShearMaterial):
         everywhere with 0, the neighbourhoods are those of all vertices, with the triangles around
         each: spokes and rims (Sorkine, Alexa 2007). Larger ones are like the rotation clusters of
         Jacobson, Baran, Kavan, Popovic, Sorkine 2012. Parts smaller than twice the radius are
-        blended linearly; 0.02 is a good start. Frames have no certificates with a radius.
+        blended linearly; 0.02 is a good start.
 
     Raises
     ------

@@ -85,6 +85,7 @@ def save_model(model: ReducedModel, path: str | Path) -> Path:
         **timings.timing_header(seconds),
     }
     arrays |= error_estimator.estimator_arrays(model.error_estimator)
+    arrays |= star_forms.sampled_arrays(model.problem, model.error_estimator)
     write_container(path, arrays, header)
     return path
 
@@ -133,7 +134,9 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
         if timings.TIMINGS in header:
             record = timings.merged(record, parsed(header, timings.TIMINGS)["entries"])
         model = make(arrays, parsed(header, "problem"), record)
-        return replace(model, error_estimator=error_estimator.estimator(arrays))
+        estimator = error_estimator.estimator(arrays)
+        star_forms.check_sampled_stars(arrays, model.problem, estimator)
+        return replace(model, error_estimator=estimator)
     except material.UnknownMaterialError as error:
         raise ValueError(
             f"{path}: {one_line(str(error))}; install the snapspace that wrote it"

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
-from ..certificate import BlendingProbe, ResidualSample
 from ..reduction import BlendedStars, FullBlends, InterpolationModel, PoseQuartics
 from ..timeline import Timeline
 from .display_shapes import Vertices
@@ -223,9 +222,6 @@ class BlendingSession(Session[InterpolationModel]):
 
     def _placed(self, vertices: Vertices) -> Vertices:
         return vertices
-
-    def _make_probe(self, sample: ResidualSample) -> BlendingProbe:
-        return BlendingProbe(self.model.problem, self.model.subspace, sample)
 
     def _aim(self, target: ArrayLike | None) -> Callable[[], None]:
         before = self._weights

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..certificate import PosingProbe, ResidualSample
 from ..reduction import PosingModel
 from ..timeline import Timeline
 from .display_shapes import Vertices
@@ -242,9 +241,6 @@ class PosingSession(Session[PosingModel]):
             return vertices
         placed = vertices @ self._maps[0, :, :3].T + self._maps[0, :, 3]
         return placed.astype(vertices.dtype, copy=False)
-
-    def _make_probe(self, sample: ResidualSample) -> PosingProbe:
-        return PosingProbe(self.model.problem, self.model.subspace, sample)
 
     def _wanted(self, motions: Mapping[str, Motion], *, who: str) -> dict[str, FloatArray]:
         return wanted_maps(motions, self._center, who=who)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..certificate import Certificate, ResidualProbe, ResidualSample
+from ..certificate import Certificate, ResidualProbe, ResidualSample, residual_probe
 from .certify import certify
 from .display_shapes import DisplayShapes, Vertices
 from .frame_report import FrameReport
@@ -225,7 +225,8 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         sample, the cost does not grow with the mesh.
         """
         if self._probe is None or self._probe[0] is not sample:
-            self._probe = sample, self._make_probe(sample)
+            model = self.model
+            self._probe = sample, residual_probe(model.problem, model.subspace, sample)
         return self._probe[1].norm(self.q, self._state())
 
     def solve_anew(self) -> FrameReport:
@@ -278,10 +279,6 @@ class Session(TimeSteps[Model], NotPickled, ABC):
     @abstractmethod
     def _placed(self, vertices: Vertices) -> Vertices:
         """The vertices (n, 3) of a shape, moved to where the session shows it."""
-
-    @abstractmethod
-    def _make_probe(self, sample: ResidualSample) -> ResidualProbe:
-        """The probe of a sample; it takes `_state`."""
 
     @abstractmethod
     def _make_loop(self, *, single: bool) -> Any:

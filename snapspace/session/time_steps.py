@@ -12,13 +12,13 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..reduction import ReducedModel
+from ..reduction import InterpolationModel, PosingModel
 from ..subspace import RigidFrames
 from .dynamics import Dynamics
 from .frame_report import FrameReport
 
 FloatArray = NDArray[np.float64]
-Model = TypeVar("Model", bound=ReducedModel)
+Model = TypeVar("Model", bound=PosingModel | InterpolationModel)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from snapspace import PosingModel
-from snapspace.certificate import PosingProbe, ResidualSample
+from snapspace.certificate import ResidualSample, residual_probe
 from snapspace.material import MATERIALS
 
 from ..page.material_models import material_model
@@ -27,24 +27,24 @@ def test_it_is_the_full_gradient_with_moduli_of_single_tets(
     weights = np.random.default_rng(3).uniform(1.0, 2.0, n)
     everything = ResidualSample(np.arange(n, dtype=np.int32), weights)
     offsets = problem.offsets(parameters)
-    found = PosingProbe(problem, model.subspace, everything).norm(q, offsets)
+    found = residual_probe(problem, model.subspace, everything).norm(q, offsets)
     assert found == pytest.approx(np.sqrt(weights @ squares), rel=1e-9)
     few = np.array([0, n // 2, n // 2, n - 1], np.int32)
     sample = ResidualSample(few, np.array([1.0, 2.0, 3.0, 4.0]))
-    found = PosingProbe(problem, model.subspace, sample).norm(q, offsets)
+    found = residual_probe(problem, model.subspace, sample).norm(q, offsets)
     assert found == pytest.approx(np.sqrt(sample.weights @ squares[few]), rel=1e-9)
 
 
 def test_arguments_of_another_size_are_refused(cubature_model: PosingModel) -> None:
     model = cubature_model
     sample = ResidualSample(model.problem.pinned[:2], np.ones(2))
-    probe = PosingProbe(model.problem, model.subspace, sample)
+    probe = residual_probe(model.problem, model.subspace, sample)
     offsets = np.zeros((3, 3, 4))
     with pytest.raises(ValueError, match="more entries than there are modes"):
         probe.norm(np.zeros(model.dimension + 1), offsets)
     with pytest.raises(ValueError, match=r"offsets must be \(handles, 3, 4\)"):
         probe.norm(np.zeros(2), np.zeros((3, 3, 3)))
     with pytest.raises(ValueError, match="has vertex 1000000, but the mesh has"):
-        PosingProbe(
+        residual_probe(
             model.problem, model.subspace, ResidualSample(np.array([10**6], np.int32), np.ones(1))
         )

@@ -10,19 +10,28 @@ from numpy.typing import NDArray
 
 import snapspace as ss
 from snapspace import InterpolationModel, PosingModel, ReducedModel
+from snapspace.cubature import BlendedStars
+from snapspace.energy import ShellMaterial
 
-from .library import Basis, Cubature, Material, Options, Report, address
+from .library import Basis, Cubature, Material, Options, Report, Stars, address
 
 FloatArray = NDArray[np.float64]
 
 
-def material(given: ss.Material) -> Material:
+def material(given: ss.Material | ShellMaterial) -> Material:
     return Material(given.kind.encode(), len(given.moduli), address(given.moduli))
 
 
 def cubature(elastic: ss.Cubature) -> Cubature:
     arrays = address(elastic.rows), address(elastic.weights)
     return Cubature(len(elastic.tets), *arrays, material(elastic.material))
+
+
+def stars(blends: BlendedStars) -> Stars:
+    names = ("rows", "weights", "origins", "forms")
+    arrays = {name: address(getattr(blends, name)) for name in names}
+    size = {"poses": blends.poses, "stars": len(blends.tets)}
+    return Stars(**size, **arrays, material=material(blends.material))
 
 
 class Entry:
@@ -48,10 +57,14 @@ class Entry:
             )
         else:
             assert isinstance(model, InterpolationModel)
-            count = len(model.problem.poses)
-            made = library.snapspace_create_blending(
-                d, count, address(model.blends.coefficients), self._basis(), self.reference(error)
-            )
+            blends, count = model.blends, len(model.problem.poses)
+            end = self._basis(), self.reference(error)
+            if isinstance(blends, BlendedStars):
+                given = self.reference(stars(blends))
+                made = library.snapspace_create_blending_stars(d, given, *end)
+            else:
+                coefficients = address(blends.coefficients)
+                made = library.snapspace_create_blending(d, count, coefficients, *end)
         assert error.value == 0
         self.session = ctypes.c_void_p(made)
 

@@ -128,6 +128,27 @@ class Probe(ctypes.Structure):
     )
 
 
+class StarProbe(ctypes.Structure):
+    _fields_ = (
+        ("stars", ctypes.c_int),
+        ("rests", ctypes.c_int),
+        ("samples", ctypes.c_int),
+        ("parts", ctypes.c_int),
+        ("pins", ctypes.c_int),
+        ("origins", ctypes.c_void_p),
+        ("modes", ctypes.c_void_p),
+        ("material", Material),
+        ("part_stars", ctypes.c_void_p),
+        ("part_samples", ctypes.c_void_p),
+        ("part_vectors", ctypes.c_void_p),
+        ("weights", ctypes.c_void_p),
+        ("pinned", ctypes.c_void_p),
+        ("pin_handles", ctypes.c_void_p),
+        ("pulls", ctypes.c_void_p),
+        ("arms", ctypes.c_void_p),
+    )
+
+
 class Options(ctypes.Structure):
     _fields_ = (
         ("method", ctypes.c_int),

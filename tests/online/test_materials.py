@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from snapspace import InterpolationModel, PosingModel
-from snapspace.certificate import BlendingProbe, PosingProbe, ResidualProbe
+from snapspace.certificate import ElementProbe, residual_probe
 from snapspace.material import MATERIALS
 
 from ..page.material_models import material_model, some_estimator
@@ -24,7 +24,7 @@ pytestmark = pytest.mark.skipif(
 BAD_ARGUMENT, NOT_FINITE, WRONG_KIND, UNKNOWN_MATERIAL = -1, -2, -4, -5
 
 
-def c_probe(probe: ResidualProbe, model: PosingModel | InterpolationModel) -> tuple[Probe, Any]:
+def c_probe(probe: ElementProbe, model: PosingModel | InterpolationModel) -> tuple[Probe, Any]:
     """The C struct, and the arrays that it points to."""
     modes = model.subspace.basis.reshape(-1, 3, model.dimension)[probe.corners]
     arrays = {
@@ -34,10 +34,10 @@ def c_probe(probe: ResidualProbe, model: PosingModel | InterpolationModel) -> tu
         "tet_corners": probe.tets,
         "sampled": probe.places,
         "weights": probe.weights,
-        "pinned": probe.pinned,
-        "pin_handles": probe.handles,
-        "pulls": probe.pulls,
-        "arms": np.ascontiguousarray(probe.arms),
+        "pinned": probe.pins.pinned,
+        "pin_handles": probe.pins.handles,
+        "pulls": probe.pins.pulls,
+        "arms": np.ascontiguousarray(probe.pins.arms),
     }
     arrays = {name: array.copy() for name, array in arrays.items()}
     sizes = {
@@ -45,7 +45,7 @@ def c_probe(probe: ResidualProbe, model: PosingModel | InterpolationModel) -> tu
         "tets": len(probe.tets),
         "rests": len(probe.rests),
         "samples": len(probe.places),
-        "pins": len(probe.pinned),
+        "pins": len(probe.pins.pinned),
     }
     pointers: dict[str, Any] = {name: address(array) for name, array in arrays.items()}
     return Probe(**sizes, **pointers, material=material(probe.material)), arrays
@@ -67,8 +67,8 @@ def residual(entry: Entry) -> float:
 def test_value_and_residual_are_those_of_python(entry: Entry) -> None:
     model = entry.model
     assert isinstance(model, PosingModel) and model.error_estimator is not None
-    probe = PosingProbe(model.problem, model.subspace, model.error_estimator.sample)
-    assert len(probe.pinned) > 0
+    probe = residual_probe(model.problem, model.subspace, model.error_estimator.sample)
+    assert len(probe.pins.pinned) > 0
     given, kept = c_probe(probe, model)
     assert entry.call("residual", ctypes.byref(ctypes.c_double())) == WRONG_KIND, "not set yet"
     assert entry.call("set_probe", ctypes.byref(given)) == 0
@@ -95,7 +95,7 @@ def test_a_blend_sums_the_residuals_of_its_poses(
 ) -> None:
     entry, model = Entry(library, blending_model), blending_model
     sample = some_estimator(model).sample
-    probe = BlendingProbe(model.problem, model.subspace, sample)
+    probe = residual_probe(model.problem, model.subspace, sample)
     given, kept = c_probe(probe, model)
     assert entry.call("set_probe", ctypes.byref(given)) == 0 and kept
     q = 0.05 * model.coordinate_scale * np.linspace(1, -1, model.dimension)
@@ -113,7 +113,7 @@ def test_a_blend_sums_the_residuals_of_its_poses(
 def test_a_faulty_probe_is_refused_and_the_one_before_stays(entry: Entry) -> None:
     model = entry.model
     assert isinstance(model, PosingModel) and model.error_estimator is not None
-    probe = PosingProbe(model.problem, model.subspace, model.error_estimator.sample)
+    probe = residual_probe(model.problem, model.subspace, model.error_estimator.sample)
     given, arrays = c_probe(probe, model)
     assert entry.call("set_probe", ctypes.byref(given)) == 0
     before = residual(entry)

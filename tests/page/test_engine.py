@@ -23,7 +23,7 @@ from snapspace import (
     TetMesh,
     calibrate,
 )
-from snapspace.certificate import PosingProbe
+from snapspace.certificate import residual_probe
 from snapspace.generators import bar
 from snapspace.material import MATERIALS
 from snapspace.page import packed
@@ -144,7 +144,7 @@ def values_at(model: PosingModel) -> dict[str, Any]:
     assert model.error_estimator is not None
     q = 0.02 * model.coordinate_scale * np.linspace(1.0, -1.0, model.dimension)
     offsets = model.problem.offsets(0.4 * model.problem.domain.half_widths)
-    probe = PosingProbe(model.problem, model.subspace, model.error_estimator.sample)
+    probe = residual_probe(model.problem, model.subspace, model.error_estimator.sample)
     return {
         "q": q.tolist(),
         "offsets": offsets.ravel().tolist(),
@@ -233,11 +233,14 @@ def expected(
         "shell": calibrate(shell_model(), samples=12, threads=1),
         "varied_shell": calibrate(shell_model(varied=True), samples=12, threads=1),
         "surface-arap": calibrate(shell_model(ARAP(), varied=True), samples=12, threads=1),
+        "surface-radius": calibrate(
+            shell_model(ARAP(), varied=True, radius=WIDE), samples=12, threads=1
+        ),
     }
     models |= materials | shells
-    models["surface-radius"] = shell_model(ARAP(), varied=True, radius=WIDE)
     models["blending-arap"] = calibrate(blended_strips(), samples=12, threads=1)
-    models["blending-radius"] = blended_strips(ARAP(radius=WIDE))
+    wide = blended_strips(ARAP(radius=WIDE))
+    models["blending-radius"] = calibrate(wide, samples=12, threads=1)
     models["blending-shell"] = calibrate(blended_strips(StableNeoHookean()), samples=12, threads=1)
     for name, model in models.items():
         model.save(folder / f"{name}.snapspace")
@@ -249,7 +252,6 @@ def expected(
         "blending": blending_frames(models["blending"]),
         "blending-cubature": blending_frames(models["blending-cubature"]),
         "blending-arap": blending_frames(models["blending-arap"]),
-        "surface-radius": posing_frames(models["surface-radius"]),
         "blending-radius": blending_frames(models["blending-radius"]),
         "blending-shell": blending_frames(models["blending-shell"]),
         "own_boxes": box_frames(own_boxes),

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from safetensors import safe_open
 from safetensors.numpy import load_file
 
 from snapspace import (
@@ -21,10 +20,10 @@ from snapspace import (
     sample,
 )
 from snapspace.cubature import BlendedStars
-from snapspace.model_file.container import write_container
 from snapspace.problem.material_entries import material_content, material_from
 from snapspace.reduction.full_energy import full_energy
 
+from ..model_file.test_bad_files import rewrite
 from .strips import WIDE, blended_strips, shell_model, strip
 
 
@@ -69,14 +68,20 @@ def test_a_file_gives_the_same_frames(
         np.testing.assert_allclose(*shapes, atol=1e-9 * model.problem.mesh.diagonal)
 
 
-def test_a_file_with_other_stars_is_refused(posed: PosingModel, tmp_path: Path) -> None:
-    path = posed.save(tmp_path / "strip.snapspace")
-    arrays = load_file(path)
-    with safe_open(path, framework="np") as file:
-        header = {k: v for k, v in file.metadata().items() if k != "checksum"}
-    arrays["stars_shares"] = 0.5 * arrays["stars_shares"]
-    write_container(path, arrays, header)
-    with pytest.raises(ValueError, match="stars_shares is not that of the surface"):
+@pytest.mark.parametrize("name", ["stars_shares", "estimator_stars_shares"])
+def test_a_file_with_other_stars_is_refused(posed: PosingModel, tmp_path: Path, name: str) -> None:
+    path = calibrate(posed, samples=4, threads=1).save(tmp_path / "strip.snapspace")
+    rewrite(path, lambda arrays, header: arrays.update({name: 0.5 * arrays[name]}))
+    with pytest.raises(ValueError, match=f"{name} is not that of the surface"):
+        load(path)
+
+
+def test_a_file_without_the_stars_of_its_estimates_is_refused(
+    posed: PosingModel, tmp_path: Path
+) -> None:
+    path = calibrate(posed, samples=4, threads=1).save(tmp_path / "strip.snapspace")
+    rewrite(path, lambda arrays, header: arrays.pop("estimator_stars_starts"))
+    with pytest.raises(ValueError, match="estimator_stars_starts is missing"):
         load(path)
 
 
@@ -101,10 +106,11 @@ def test_files_of_rings_are_as_before_there_was_a_radius(tmp_path: Path) -> None
     assert load(path).problem.material == model.problem.material
 
 
-def test_builds_leave_certificates_out() -> None:
+def test_builds_are_calibrated() -> None:
     problem = blended_strips(ARAP(radius=WIDE)).problem
     model = accurate_model(problem, target_error=0.05, most_samples=20).model
-    assert model.error_estimator is None
+    assert model.error_estimator is not None
     assert isinstance(model.blends, BlendedStars)
-    with pytest.raises(ValueError, match="ARAP with a radius have no certificates"):
-        calibrate(model, samples=4)
+    session = model.session()
+    session.blend([0.3, 0.3, 0.4])
+    assert 0.0 < session.certificate(confidence=0.5).relative < 0.2

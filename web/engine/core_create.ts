@@ -1,7 +1,16 @@
-import { BASIS, CUBATURE, ERROR, MATERIAL, PROBE, STARS, type CoreExports } from "./core_exports.ts";
+import {
+  BASIS,
+  CUBATURE,
+  ERROR,
+  MATERIAL,
+  PROBE,
+  STAR_PROBE,
+  STARS,
+  type CoreExports,
+} from "./core_exports.ts";
 import { CoreMemory } from "./core_memory.ts";
 import { UnreadableModel } from "./errors.ts";
-import type { Estimator } from "./estimator.ts";
+import type { ElementProbe, Estimator, StarProbe } from "./estimator.ts";
 import type { BlendedStars, BlendingModel, Body, Cubature, Material, PosingModel } from "./model.ts";
 
 /** A session of the core, as a pointer. Throws UnreadableModel for a damaged model, or one of an unknown material. */
@@ -105,31 +114,61 @@ function rowsOf(exports: CoreExports, memory: CoreMemory, elastic: Cubature, dim
   return made;
 }
 
-function setProbe(exports: CoreExports, memory: CoreMemory, session: number, estimator: Estimator): void {
-  const { pins, tets, rests, places } = estimator;
+function setProbe(exports: CoreExports, memory: CoreMemory, session: number, { probe }: Estimator): void {
+  const pins = {
+    pins: probe.pins.corners.length,
+    pinned: memory.numbers(probe.pins.corners),
+    pinHandles: memory.numbers(probe.pins.handles),
+    pulls: memory.numbers(probe.pins.pulls),
+    arms: memory.numbers(probe.pins.arms),
+  };
+  const given = {
+    ...pins,
+    ...materialOf(exports, memory, probe.material),
+    weights: memory.numbers(probe.weights),
+  };
+  const code =
+    probe.kind === "stars"
+      ? exports.snapspace_set_star_probe(session, memory.struct(STAR_PROBE, starFields(memory, probe, given)))
+      : exports.snapspace_set_probe(session, memory.struct(PROBE, elementFields(memory, probe, given)));
+  if (code !== ERROR.OK)
+    throw new UnreadableModel(`The error estimates of the model do not fit (error ${code}). Build it again.`);
+}
+
+type Fields = Readonly<Record<string, number>>;
+
+function elementFields(memory: CoreMemory, probe: ElementProbe, given: Fields): Fields {
+  const { tets, rests, places } = probe;
   const shapes = new Float64Array(rests.length * rests[0].length);
   rests.forEach((rest, k) => shapes.set(rest, k * rest.length));
-  const probe = memory.struct(PROBE, {
-    corners: estimator.base.length / 3,
+  return {
+    ...given,
+    corners: probe.base.length / 3,
     tets: tets.length / 4,
     rests: rests.length,
     samples: places.length,
-    pins: pins.corners.length,
-    tau: memory.numbers(estimator.base),
-    modes: memory.numbers(Float64Array.from(estimator.modes)),
+    tau: memory.numbers(probe.base),
+    modes: memory.numbers(Float64Array.from(probe.modes)),
     restShapes: memory.numbers(shapes),
     tetCorners: memory.numbers(tets),
-    ...materialOf(exports, memory, estimator.material),
     sampled: memory.numbers(places),
-    weights: memory.numbers(estimator.weights),
-    pinned: memory.numbers(pins.corners),
-    pinHandles: memory.numbers(pins.handles),
-    pulls: memory.numbers(pins.pulls),
-    arms: memory.numbers(pins.arms),
-  });
-  const code = exports.snapspace_set_probe(session, probe);
-  if (code !== ERROR.OK)
-    throw new UnreadableModel(`The error estimates of the model do not fit (error ${code}). Build it again.`);
+  };
+}
+
+function starFields(memory: CoreMemory, probe: StarProbe, given: Fields): Fields {
+  const poses = probe.partVectors.length / (3 * probe.partStars.length);
+  return {
+    ...given,
+    stars: probe.material.rows / poses,
+    rests: poses,
+    samples: probe.weights.length,
+    parts: probe.partStars.length,
+    origins: memory.numbers(probe.origins),
+    modes: memory.numbers(probe.modes),
+    partStars: memory.numbers(probe.partStars),
+    partSamples: memory.numbers(probe.partPlaces),
+    partVectors: memory.numbers(probe.partVectors),
+  };
 }
 
 /** The unit of energy, if it must be computed. */

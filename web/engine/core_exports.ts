@@ -82,6 +82,7 @@ export interface CoreExports {
   snapspace_set_q(session: number, q: number): number;
   snapspace_get_vertices(session: number, vertices: number): number;
   snapspace_set_probe(session: number, probe: number): number;
+  snapspace_set_star_probe(session: number, probe: number): number;
   snapspace_residual(session: number, residual: number): number;
 }
 
@@ -194,6 +195,30 @@ export const PROBE = {
     materialCount: ["int", 40],
     materialModuli: ["int", 44],
     sampled: ["int", 48],
+    weights: ["int", 52],
+    pinned: ["int", 56],
+    pinHandles: ["int", 60],
+    pulls: ["int", 64],
+    arms: ["int", 68],
+  },
+} as const satisfies Layout;
+
+export const STAR_PROBE = {
+  size: 72,
+  fields: {
+    stars: ["int", 0],
+    rests: ["int", 4],
+    samples: ["int", 8],
+    parts: ["int", 12],
+    pins: ["int", 16],
+    origins: ["int", 20],
+    modes: ["int", 24],
+    materialKind: ["int", 28],
+    materialCount: ["int", 32],
+    materialModuli: ["int", 36],
+    partStars: ["int", 40],
+    partSamples: ["int", 44],
+    partVectors: ["int", 48],
     weights: ["int", 52],
     pinned: ["int", 56],
     pinHandles: ["int", 60],

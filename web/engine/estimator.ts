@@ -1,9 +1,20 @@
 import type { Material } from "./model.ts";
 
-/** What a model knows about the errors of its frames; as ErrorEstimator of the Python package, with what core/online/residual_probe.h takes. */
+/** What a model knows about the errors of its frames; as ErrorEstimator of the Python package. */
 export interface Estimator {
   /** Mass of the body at density 1: its volume. */
   readonly mass: number;
+  readonly probe: ElementProbe | StarProbe;
+  /** Frames that were solved in full, d numbers each, and their true distances over size * (residual / size) ^ exponent. */
+  readonly coordinates: Float64Array;
+  readonly ratios: Float64Array;
+  /** 1 in earlier calibrations. */
+  readonly exponent: number;
+}
+
+/** What core/online/element_probe.h takes. */
+export interface ElementProbe {
+  readonly kind: "elements";
   /** d x 3 corners: the modes at the corners of the tets around the vertices where residuals are read. */
   readonly modes: Float32Array;
   /** tau at the corners, x0 y0 z0 x1 ... */
@@ -19,11 +30,25 @@ export interface Estimator {
   readonly weights: Float64Array;
   /** Pinned vertices among these corners, of posing models. */
   readonly pins: Pins;
-  /** Frames that were solved in full, d numbers each, and their true distances over size * (residual / size) ^ exponent. */
-  readonly coordinates: Float64Array;
-  readonly ratios: Float64Array;
-  /** 1 in earlier calibrations. */
-  readonly exponent: number;
+}
+
+/** What core/online/star_probe.h takes: numbers are 9 per star, and then 3 per vertex where residuals are read. */
+export interface StarProbe {
+  readonly kind: "stars";
+  /** Poses x numbers, those of tau. */
+  readonly origins: Float64Array;
+  /** Poses x d x numbers, those of the modes. */
+  readonly modes: Float32Array<ArrayBuffer>;
+  /** Of poses x stars. */
+  readonly material: Material;
+  /** Pairs of a star and a vertex that its stress pulls at, and poses x pairs x 3 what it is multiplied by there. */
+  readonly partStars: Int32Array;
+  readonly partPlaces: Int32Array;
+  readonly partVectors: Float64Array;
+  /** What the squares of residuals count, one number per vertex. */
+  readonly weights: Float64Array;
+  /** Pinned vertices among them, of posing models. */
+  readonly pins: Pins;
 }
 
 export interface Pins {
@@ -42,17 +67,19 @@ export const NO_PINS: Pins = {
   arms: new Float64Array(),
 };
 
-/** From the centroids of their handles to the pinned corners at rest. */
+/** From the centroids of their handles to the pinned vertices at rest, 3 numbers each. */
 export function armsOf(
-  corners: Int32Array,
+  rests: Float64Array,
   owners: Int32Array,
   handles: readonly { readonly center: readonly number[] }[],
-  rest: Float64Array,
 ): Float64Array {
-  const arms = new Float64Array(3 * corners.length);
-  arms.forEach((_, i) => {
-    const [pin, axis] = [Math.floor(i / 3), i % 3];
-    arms[i] = rest[3 * corners[pin] + axis] - handles[owners[pin]].center[axis];
-  });
-  return arms;
+  return rests.map((x, i) => x - handles[owners[Math.floor(i / 3)]].center[i % 3]);
+}
+
+/** Three numbers per vertex, of some vertices. */
+export function rowsAt(rows: Float64Array, vertices: ArrayLike<number>): Float64Array {
+  return Float64Array.from(
+    { length: 3 * vertices.length },
+    (_, i) => rows[3 * vertices[Math.floor(i / 3)] + (i % 3)],
+  );
 }

@@ -7,11 +7,11 @@
 #include "online/blended_cubature.cpp"
 #include "online/blended_stars.cpp"
 #include "online/cubature.cpp"
+#include "online/element_probe.cpp"
 #include "online/probe_entry.cpp"
 #include "online/quartic.cpp"
-#include "online/residual_probe.cpp"
 #include "online/snapspace_online.cpp"
-#include "online/star_gradient.cpp"
+#include "online/star_probe.cpp"
 #include "online/tet_density.cpp"
 #include "online/tet_rows.cpp"
 

@@ -1,10 +1,11 @@
 import type { Container } from "./container.ts";
-import { armsOf, type Estimator, type Pins } from "./estimator.ts";
+import { armsOf, rowsAt, type ElementProbe, type Estimator, type Pins } from "./estimator.ts";
 import type { Handle } from "./model.ts";
 import type { FileBody } from "./read_body.ts";
 import { materialOfTets } from "./read_material.ts";
+import { starProbe } from "./read_star_probe.ts";
 
-interface Shapes {
+export interface Shapes {
   /** Modes, rows of 3 * vertices numbers. */
   readonly basis: Float64Array;
   readonly tau: Float64Array;
@@ -19,46 +20,66 @@ interface HandleData {
   readonly stiffness: number;
 }
 
-/** The estimator of a model file: takes the elements around the sampled vertices out of the mesh; null without one. */
+/** Which of the vertices that a probe knows, ascending, are pinned; only sampled ones count. */
+export type FindPins = (known: ArrayLike<number>, isSampled: (vertex: number) => boolean) => Pins;
+
+/** The estimator of a model file: takes what the gradient at the sampled vertices depends on out of the mesh; null without one. */
 export function estimatorOf(
   container: Container,
-  { elements: tets, material, rigid }: FileBody,
-  { basis, tau, rests }: Shapes,
-  pins: (corners: number[], isSampled: boolean[]) => Pins,
+  body: FileBody,
+  shapes: Shapes,
+  pins: FindPins,
 ): Estimator | null {
   if (!container.has("estimator_vertices")) return null;
   const [count] = container.shape("estimator_vertices", 1);
+  const vertices = container.indices("estimator_vertices", shapes.tau.length / 3, [count]);
+  const weights = container.doubles("estimator_weights", count);
   const [frames, dimension] = container.shape("estimator_coordinates", 2);
-  const vertices = container.indices("estimator_vertices", tau.length / 3, [count]);
-  const sampled = new Set(vertices);
-  // the rotations of neighbours count too where a surface is as rigid as possible
-  const chosen = elementsAt(tets, rigid ? new Set(cornersOf(tets, elementsAt(tets, sampled))) : sampled);
-  const around = cornersOf(tets, chosen);
-  const corners = [...new Set(around)].sort((a, b) => a - b);
-  const place = new Map(corners.map((vertex, i) => [vertex, i]));
-  const taken = (rows: Float64Array, row = 0) =>
-    Float64Array.from({ length: 3 * corners.length }, (_, i) => {
-      const vertex = corners[Math.floor(i / 3)];
-      return rows[row * tau.length + 3 * vertex + (i % 3)];
-    });
-  const modes = new Float32Array(3 * corners.length * dimension);
-  for (let mode = 0; mode < dimension; mode++) modes.set(taken(basis, mode), 3 * corners.length * mode);
   return {
     mass: container.doubles("estimator_mass", 1)[0],
-    modes,
-    base: taken(tau),
-    rests: rests.map((rest) => taken(rest)),
-    tets: around.map((vertex) => place.get(vertex)!),
-    material: materialOfTets(material, chosen),
-    places: vertices.map((vertex) => place.get(vertex)!),
-    weights: container.doubles("estimator_weights", count),
-    pins: pins(
-      corners,
-      corners.map((vertex) => sampled.has(vertex)),
-    ),
+    probe: body.rigid
+      ? starProbe(container, body.rigid, shapes, { vertices, weights, pins })
+      : elementProbe(body, shapes, { vertices, weights, pins }),
     coordinates: container.doubles("estimator_coordinates", frames, dimension),
     ratios: container.doubles("estimator_residual_ratios", frames),
     exponent: exponentOf(container),
+  };
+}
+
+/** The vertices where residuals are read, and what their squares count. */
+export interface ProbeSample {
+  readonly vertices: Int32Array;
+  readonly weights: Float64Array;
+  readonly pins: FindPins;
+}
+
+/** Takes the elements around the sampled vertices. */
+function elementProbe(
+  { elements: tets, material }: FileBody,
+  { basis, tau, rests }: Shapes,
+  { vertices, weights, pins }: ProbeSample,
+): ElementProbe {
+  const sampled = new Set(vertices);
+  const chosen = elementsAt(tets, sampled);
+  const around = cornersOf(tets, chosen);
+  const corners = [...new Set(around)].sort((a, b) => a - b);
+  const place = new Map(corners.map((vertex, i) => [vertex, i]));
+  const dimension = basis.length / tau.length;
+  const modes = new Float32Array(3 * corners.length * dimension);
+  for (let mode = 0; mode < dimension; mode++) {
+    const shape = basis.subarray(mode * tau.length, (mode + 1) * tau.length);
+    modes.set(rowsAt(shape, corners), 3 * corners.length * mode);
+  }
+  return {
+    kind: "elements",
+    modes,
+    base: rowsAt(tau, corners),
+    rests: rests.map((rest) => rowsAt(rest, corners)),
+    tets: around.map((vertex) => place.get(vertex)!),
+    material: materialOfTets(material, chosen),
+    places: vertices.map((vertex) => place.get(vertex)!),
+    weights,
+    pins: pins(corners, (vertex) => sampled.has(vertex)),
   };
 }
 
@@ -80,18 +101,18 @@ export function exponentOf(container: Container): number {
 }
 
 /** The sampled vertices that handles hold. */
-export function pinsOf(corners: number[], isSampled: boolean[], held: HandleData): Pins {
-  const { handleOf, handles, rest, masses, stiffness } = held;
-  const pinned = corners.flatMap((vertex, i) => (isSampled[i] && handleOf[vertex] >= 0 ? [i] : []));
-  const owners = Int32Array.from(pinned, (i) => handleOf[corners[i]]);
-  const own = Float64Array.from({ length: 3 * corners.length }, (_, i) => {
-    const vertex = corners[Math.floor(i / 3)];
-    return rest[3 * vertex + (i % 3)];
-  });
-  return {
-    corners: Int32Array.from(pinned),
-    handles: owners,
-    pulls: Float64Array.from(pinned, (i) => 2 * stiffness * masses[corners[i]]),
-    arms: armsOf(Int32Array.from(pinned), owners, handles, own),
+export function pinsOf({ handleOf, handles, rest, masses, stiffness }: HandleData): FindPins {
+  return (known, isSampled) => {
+    const pinned = Int32Array.from(known, (_, i) => i).filter(
+      (i) => isSampled(known[i]) && handleOf[known[i]] >= 0,
+    );
+    const vertices = pinned.map((i) => known[i]);
+    const owners = vertices.map((vertex) => handleOf[vertex]);
+    return {
+      corners: pinned,
+      handles: owners,
+      pulls: Float64Array.from(vertices, (vertex) => 2 * stiffness * masses[vertex]),
+      arms: armsOf(rowsAt(rest, vertices), owners, handles),
+    };
   };
 }

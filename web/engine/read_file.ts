@@ -65,8 +65,11 @@ function readPosing(container: Container, name: string): Model {
     space: quantised(embedded(rest), embedded(basis)),
     ...body.scales,
     material: material.kind,
-    estimator: estimatorOf(container, body, { basis, tau: rest, rests: [rest] }, (corners, isSampled) =>
-      pinsOf(corners, isSampled, { handleOf, handles, rest, masses, stiffness: Number(about.stiffness) }),
+    estimator: estimatorOf(
+      container,
+      body,
+      { basis, tau: rest, rests: [rest] },
+      pinsOf({ handleOf, handles, rest, masses, stiffness: Number(about.stiffness) }),
     ),
     handles,
     handleOfVertex:

@@ -1,7 +1,7 @@
 import { readAppearance } from "./appearance.ts";
 import type { Container } from "./container.ts";
 import { UnreadableModel } from "./errors.ts";
-import { armsOf, NO_PINS, type Estimator, type Pins } from "./estimator.ts";
+import { NO_PINS, type ElementProbe, type Estimator, type Pins, type StarProbe } from "./estimator.ts";
 import { exponentOf } from "./read_estimator.ts";
 import { readMaterial } from "./read_material.ts";
 import {
@@ -135,19 +135,31 @@ function readStars(container: Container, { dimension, material }: Known, poses: 
   };
 }
 
-function readEstimator(
+function readEstimator(container: Container, known: Known, handles: readonly Handle[]): Estimator | null {
+  if (!container.has("estimator_ratios")) return null;
+  const [frames] = container.shape("estimator_ratios", 1);
+  return {
+    mass: container.doubles("estimator_mass", 1)[0],
+    probe: container.has("estimator_part_stars")
+      ? readStarProbe(container, known, handles)
+      : readElementProbe(container, known, handles),
+    coordinates: container.doubles("estimator_coordinates", frames, known.dimension),
+    ratios: container.doubles("estimator_ratios", frames),
+    exponent: exponentOf(container),
+  };
+}
+
+function readElementProbe(
   container: Container,
   { dimension, material }: Known,
   handles: readonly Handle[],
-): Estimator | null {
-  if (!container.has("estimator_ratios")) return null;
+): ElementProbe {
   const [count, corners] = container.shape("estimator_rests", 3);
   const [tets] = container.shape("estimator_tets", 2);
   const [places] = container.shape("estimator_places", 1);
-  const [frames] = container.shape("estimator_ratios", 1);
   const rests = container.doubles("estimator_rests", count, corners, 3);
   return {
-    mass: container.doubles("estimator_mass", 1)[0],
+    kind: "elements",
     modes: container.floats("estimator_modes", dimension, 3 * corners),
     base: container.doubles("estimator_base", corners, 3),
     rests: Array.from({ length: count }, (_, k) => rests.subarray(3 * corners * k, 3 * corners * (k + 1))),
@@ -155,22 +167,41 @@ function readEstimator(
     material: readMaterial(container, "estimator_moduli", material),
     places: container.indices("estimator_places", corners, [places]),
     weights: container.doubles("estimator_weights", places),
-    pins: handles.length > 0 ? readPins(container, handles, rests) : NO_PINS,
-    coordinates: container.doubles("estimator_coordinates", frames, dimension),
-    ratios: container.doubles("estimator_ratios", frames),
-    exponent: exponentOf(container),
+    pins: readPins(container, handles, corners),
   };
 }
 
-function readPins(container: Container, handles: readonly Handle[], rest: Float64Array): Pins {
-  const [count] = container.shape("estimator_pin_corners", 1);
-  const corners = container.indices("estimator_pin_corners", rest.length / 3, [count]);
-  const owners = container.indices("estimator_pin_handles", handles.length, [count]);
+function readStarProbe(
+  container: Container,
+  { dimension, material }: Known,
+  handles: readonly Handle[],
+): StarProbe {
+  const [poses, numbers] = container.shape("estimator_origins", 2);
+  const [places] = container.shape("estimator_weights", 1);
+  const [parts] = container.shape("estimator_part_stars", 1);
+  const stars = (numbers - 3 * places) / 9;
   return {
-    corners,
-    handles: owners,
+    kind: "stars",
+    origins: container.doubles("estimator_origins", poses, numbers),
+    modes: container.floats("estimator_modes", poses, dimension, numbers),
+    material: readMaterial(container, "estimator_moduli", material, poses * stars),
+    partStars: container.indices("estimator_part_stars", stars, [parts]),
+    partPlaces: container.indices("estimator_part_places", places, [parts]),
+    partVectors: container.doubles("estimator_part_vectors", poses, parts, 3),
+    weights: container.doubles("estimator_weights", places),
+    pins: readPins(container, handles, places),
+  };
+}
+
+/** `known` is how many vertices the probe knows. */
+function readPins(container: Container, handles: readonly Handle[], known: number): Pins {
+  if (handles.length === 0) return NO_PINS;
+  const [count] = container.shape("estimator_pin_corners", 1);
+  return {
+    corners: container.indices("estimator_pin_corners", known, [count]),
+    handles: container.indices("estimator_pin_handles", handles.length, [count]),
     pulls: container.doubles("estimator_pin_pulls", count),
-    arms: armsOf(corners, owners, handles, rest),
+    arms: container.doubles("estimator_pin_arms", count, 3),
   };
 }
 

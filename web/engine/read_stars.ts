@@ -2,7 +2,8 @@ import type { Container } from "./container.ts";
 import type { BlendedStars, Cubature } from "./model.ts";
 import { oneRings, STAR_MODULI, VertexStars, type RigidSurface, type StarTriangles } from "./vertex_stars.ts";
 
-const KIND = "shell-arap";
+/** The density of stars. */
+export const KIND = "shell-arap";
 
 /** The cubature of a surface that is as rigid as possible. For what its stars leave of the energy see `withRemainder`. */
 export function starCubature(
@@ -75,11 +76,21 @@ function rowsOf(poses: readonly VertexStars[], basis: Float64Array, dimension: n
 function chosenStars(container: Container, { triangles }: RigidSurface, vertices: number): StarTriangles[] {
   const chosen = container.indices("cubature_tets", vertices, container.shape("cubature_tets", 1));
   if (!container.has("stars_starts")) return oneRings(triangles, chosen, vertices);
-  const [count] = container.shape("stars_triangles", 1);
-  const starts = container.indices("stars_starts", count + 1, [chosen.length + 1]);
-  const own = container.indices("stars_triangles", triangles.length / 3, [count]);
-  const shares = container.doubles("stars_shares", count);
-  return Array.from(chosen, (_, i) => ({
+  return starsIn(container, "stars", triangles, chosen.length);
+}
+
+/** The triangles of stars in a file: arrays whose names begin alike. */
+export function starsIn(
+  container: Container,
+  name: string,
+  triangles: Int32Array,
+  stars = container.shape(`${name}_starts`, 1)[0] - 1,
+): StarTriangles[] {
+  const [count] = container.shape(`${name}_triangles`, 1);
+  const starts = container.indices(`${name}_starts`, count + 1, [stars + 1]);
+  const own = container.indices(`${name}_triangles`, triangles.length / 3, [count]);
+  const shares = container.doubles(`${name}_shares`, count);
+  return Array.from({ length: stars }, (_, i) => ({
     triangles: own.subarray(starts[i], starts[i + 1]),
     shares: shares.subarray(starts[i], starts[i + 1]),
   }));

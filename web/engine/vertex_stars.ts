@@ -19,6 +19,15 @@ export interface StarTriangles {
   readonly shares: ArrayLike<number>;
 }
 
+/** Pairs of a star and a vertex whose force its stress is part of: stress times vector. */
+export interface StarParts {
+  readonly stars: Int32Array;
+  /** Indices of the vertices among those asked for. */
+  readonly places: Int32Array;
+  /** Three numbers each, for the stress of a star of modulus and area one. */
+  readonly vectors: Float64Array;
+}
+
 /** Some stars of a surface with one shape at rest; as VertexStars of the core. */
 export class VertexStars {
   /** The area of each: that of its triangles, shared between stars. */
@@ -52,6 +61,26 @@ export class VertexStars {
             displacements[3 * corners[corner] + Math.floor(e / 3)] * gradients[3 * corner + (e % 3)];
     });
     return numbers;
+  }
+
+  /** Those of these stars at some vertices, in the same order for all shapes of a surface. */
+  parts(vertices: Int32Array): StarParts {
+    const place = new Map(Array.from(vertices, (vertex, i) => [vertex, i]));
+    const found: { star: number; place: number; vector: number[] }[] = [];
+    this.#corners.forEach((corners, star) => {
+      const weight = this.moduli[STAR_MODULI * star] * this.areas[star];
+      corners.forEach((vertex, corner) => {
+        const at = place.get(vertex);
+        const gradient = this.#gradients[star].subarray(3 * corner, 3 * corner + 3);
+        if (at !== undefined)
+          found.push({ star, place: at, vector: Array.from(gradient, (x) => weight * x) });
+      });
+    });
+    return {
+      stars: Int32Array.from(found, (part) => part.star),
+      places: Int32Array.from(found, (part) => part.place),
+      vectors: Float64Array.from(found.flatMap((part) => part.vector)),
+    };
   }
 }
 

@@ -65,6 +65,8 @@ for (const [file, name] of [
   ["surface-arap.snapspace", "stars_remainder"],
   ["blending-arap.snapspace", "stars_forms"],
   ["surface-radius.snapspace", "stars_triangles"],
+  ["surface-radius.snapspace", "estimator_stars_shares"],
+  ["blending-radius.packed", "estimator_part_vectors"],
 ])
   test(`a file that is cut off or altered is refused: ${file}`, () => {
     const whole = bytes(file);
