@@ -3,7 +3,7 @@
     python benchmarks/blend_paths.py                       # generated sets, and those of the meshes
     python benchmarks/blend_paths.py --set lizard-4 lion   # some of them
     python benchmarks/blend_paths.py --shell --material arap --set lizard-4 lion   # as surfaces
-    python benchmarks/blend_paths.py --shell --material arap --radius 0.02 --set lion
+    python benchmarks/blend_paths.py --shell --material arap --radius 0 --set lion
 
 A path goes from one pose to another in steps of 1 % of the weight, in a live session. Distances are
 the largest of any vertex, relative to the diagonal of the first pose. Some unseen blends are solved
@@ -182,7 +182,7 @@ def main() -> None:
     parser.add_argument("--set", nargs="+", choices=SETS, default=list(SETS))
     parser.add_argument("--material", nargs="+", default=["stvk", "stable-neo-hookean"])
     parser.add_argument("--shell", action="store_true", help="blend surfaces, without tets")
-    parser.add_argument("--radius", type=float, default=0.0, help="of the stars of arap")
+    parser.add_argument("--radius", type=float, default=0.02, help="of the stars of arap")
     parser.add_argument("--target-error", type=float, default=0.005, metavar="SHARE")
     parser.add_argument("--samples", type=int, default=40, help="number of samples, for stvk")
     parser.add_argument("--dimension", type=int, default=30, help="d, for stvk")

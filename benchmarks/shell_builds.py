@@ -2,6 +2,7 @@
 
     python benchmarks/shell_builds.py
     python benchmarks/shell_builds.py --surface cloth --thickness 0.01 --json
+    python benchmarks/shell_builds.py --radius 0.02   # as rigid as possible
 
 The lowest and the highest 3 % of the vertices (y) are handles; the highest move by up to 30 degrees
 and a tenth of the diagonal. *First* is the first model that `growing_models` and the page show.
@@ -35,17 +36,19 @@ def shell(name: str, thickness: float) -> ss.ShellMesh:
     return shells.read_shell(path, thickness) if path else cloth.cloth(CLOTH_TRIANGLES, thickness)
 
 
-def posed(mesh: ss.ShellMesh) -> ss.PosingProblem:
+def posed(mesh: ss.ShellMesh, material: ss.Material | None) -> ss.PosingProblem:
     """The shell with its lowest and highest vertices as handles."""
     height = mesh.vertices[:, 1]
     ends = [height < np.quantile(height, HELD), height > np.quantile(height, 1 - HELD)]
     domain = ss.HandleBox(translation=0.1 * mesh.diagonal, angle=np.pi / 6)
-    return ss.PosingProblem(mesh, ss.Handles(ends, names=["low", "high"]), domain=domain)
+    handles = ss.Handles(ends, names=["low", "high"])
+    return ss.PosingProblem(mesh, handles, domain=domain, material=material)
 
 
 def figures(name: str, args: argparse.Namespace) -> dict[str, Any]:
     """Figures of one surface."""
-    problem = posed(shell(name, args.thickness))
+    material = None if args.radius is None else ss.ARAP(radius=args.radius)
+    problem = posed(shell(name, args.thickness), material)
     begin = time.perf_counter()
     first = None
     for growth in ss.growing_models(problem):
@@ -73,6 +76,7 @@ def main() -> None:
     )
     parser.add_argument("--surface", choices=SURFACES, action="append", help="default: all")
     parser.add_argument("--thickness", type=float, default=0.01, help="share of the diagonal")
+    parser.add_argument("--radius", type=float, help="as rigid as possible, with this radius")
     parser.add_argument("--motions", type=int, default=15, help="number of unseen motions")
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()

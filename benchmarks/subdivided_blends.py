@@ -2,7 +2,7 @@
 
     python benchmarks/subdivided_blends.py                       # the lion, and to 500,000 vertices
     python benchmarks/subdivided_blends.py --parts 1 2 3         # smaller
-    python benchmarks/subdivided_blends.py --parts 1 2 3 --radius 0.02
+    python benchmarks/subdivided_blends.py --parts 1 2 3 --radius 0
     python benchmarks/subdivided_blends.py --set dog --parts 1 4 --poses 3 --most-samples 160
 
 Every edge of all poses is split into so many equal parts, and every triangle into their square,
@@ -166,7 +166,7 @@ def main() -> None:
     parser.add_argument("--set", choices=blend_paths.SETS, default="lion")
     parser.add_argument("--parts", type=int, nargs="+", default=[1, 10], help="of every edge")
     parser.add_argument("--poses", type=int, default=2, help="the first ones of the set")
-    parser.add_argument("--radius", type=float, default=0.0, help="of the stars")
+    parser.add_argument("--radius", type=float, default=0.02, help="of the stars")
     parser.add_argument("--target-error", type=float, metavar="SHARE")
     parser.add_argument("--most-samples", type=int, default=20)
     parser.add_argument("--frames", type=int, default=600)

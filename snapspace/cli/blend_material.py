@@ -7,7 +7,15 @@ from typing import Any, TypeVar
 
 import click
 
-from ..material import ARAP, MATERIALS, Material, StableNeoHookean, material_class
+from ..material import (
+    ARAP,
+    BLEND_RADIUS,
+    DEFAULT_MATERIAL,
+    MATERIALS,
+    Material,
+    default_blend_material,
+    material_class,
+)
 from .shell_pose_files import check_shell_options
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -17,7 +25,7 @@ _OPTIONS = (
         "--material",
         "kind",
         type=click.Choice(sorted(MATERIALS)),
-        help=f"Material of the body; stvk is the paper's [default: {StableNeoHookean.kind}, or "
+        help=f"Material of the body; stvk is the paper's [default: {DEFAULT_MATERIAL.kind}, or "
         f"{ARAP.kind} with --shell].",
     ),
     click.option("--lam", type=float, default=1.0, show_default=True, help="First Lame parameter."),
@@ -27,8 +35,8 @@ _OPTIONS = (
         type=float,
         metavar="SHARE",
         help=f"With --shell and {ARAP.kind}: radius of the neighbourhoods that are rigid, relative "
-        "to the diagonal; 0.02 is a good start. Fine surfaces then blend like coarser ones, and "
-        "models take a fraction of the time [default: one ring of triangles].",
+        "to the diagonal. Smaller parts are blended linearly; 0 are the triangles around each "
+        f"vertex, which bend more easily the finer a surface is [default: {BLEND_RADIUS}].",
     ),
 )
 
@@ -51,14 +59,15 @@ def blend_material(
         For a material that a shell cannot have, options on the command line that do not go with
         `--shell`, or a radius of another material.
     """
-    chosen = kind or (ARAP if shell else StableNeoHookean).kind
+    chosen = kind or default_blend_material(surfaces=shell).kind
     if shell:
         check_shell_options(chosen)
-    if radius is None:
-        return material_class(chosen).from_lame(lam=lam, mu=mu)
-    if not shell or chosen != ARAP.kind:
+    rigid = shell and chosen == ARAP.kind
+    if radius is not None and not rigid:
         raise ValueError(
             f"--radius is for surfaces that are as rigid as possible; give --shell and "
             f"--material {ARAP.kind} as well, or leave it out"
         )
-    return ARAP(mu=mu, radius=radius)
+    if rigid:
+        return ARAP(mu=mu, radius=BLEND_RADIUS if radius is None else radius)
+    return material_class(chosen).from_lame(lam=lam, mu=mu)

@@ -1,9 +1,15 @@
 """Materials: elastic densities and their moduli."""
 
-from .arap import ARAP
+from .arap import ARAP, BLEND_RADIUS
 from .corotational import Corotational
 from .material import Material
-from .materials import DEFAULT_MATERIAL, MATERIALS, checked_material, material_class
+from .materials import (
+    DEFAULT_MATERIAL,
+    MATERIALS,
+    checked_material,
+    default_blend_material,
+    material_class,
+)
 from .mooney_rivlin import MooneyRivlin
 from .stable_neo_hookean import StableNeoHookean
 from .stvk import StVK
@@ -11,6 +17,7 @@ from .symmetric_dirichlet import SymmetricDirichlet
 
 __all__ = [
     "ARAP",
+    "BLEND_RADIUS",
     "DEFAULT_MATERIAL",
     "MATERIALS",
     "Corotational",
@@ -20,5 +27,6 @@ __all__ = [
     "StableNeoHookean",
     "SymmetricDirichlet",
     "checked_material",
+    "default_blend_material",
     "material_class",
 ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .arap import ARAP
+from .arap import ARAP, BLEND_RADIUS
 from .corotational import Corotational
 from .material import Material
 from .mooney_rivlin import MooneyRivlin
@@ -27,6 +27,11 @@ def material_class(kind: str) -> type[Material]:
     if kind not in MATERIALS:
         raise ValueError(f"unknown material '{kind}'; known are {', '.join(sorted(MATERIALS))}")
     return MATERIALS[kind]
+
+
+def default_blend_material(*, surfaces: bool) -> Material:
+    """What poses are made of where the user names no material."""
+    return ARAP(radius=BLEND_RADIUS) if surfaces else DEFAULT_MATERIAL()
 
 
 def checked_material(material: Any, count: int, who: str) -> Material:

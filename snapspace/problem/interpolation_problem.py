@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from .. import _core as core
-from ..energy import PoseEnergies, ShellMaterial
+from ..energy import PoseEnergies, ShellMaterial, is_of_stars
 from ..interruptible import run_abandonable
-from ..material import ARAP, Material, StableNeoHookean, checked_material
+from ..material import Material, checked_material, default_blend_material
 from ..mesh import ShellMesh, TetMesh, mass_matrix, mass_of_cells, tet_volumes, triangle_areas
 from ..registration import registered
 from .certain_range import CertainRange, certain_range
@@ -42,7 +42,7 @@ class InterpolationProblem:
     ----------
     poses : Poses or ShellPoses, or a sequence of TetMesh or of ShellMesh
         Two or more; each may be in its own frame.
-    material : Material, default StableNeoHookean(lam=1, mu=1), of shells ARAP()
+    material : Material, default StableNeoHookean(lam=1, mu=1), of shells ARAP(radius=0.02)
         Any of `MATERIALS`; of shells ARAP, StableNeoHookean or StVK. Moduli are numbers, or arrays
         with one number per tet or triangle. Blends of ARAP are unique where others crumple, see
         docs/materials.md.
@@ -73,7 +73,7 @@ class InterpolationProblem:
         mean_shape: ArrayLike | None = None,
     ) -> None:
         self.poses = as_poses(poses)
-        made_of = material or (ARAP() if isinstance(self.mesh, ShellMesh) else StableNeoHookean())
+        made_of = material or default_blend_material(surfaces=isinstance(self.mesh, ShellMesh))
         self.material = checked_material(made_of, len(self.mesh.cells), "InterpolationProblem")
         self.domain = Simplex(corners=len(self.poses), extrapolation=extrapolation)
         if mean_shape is not None:
@@ -148,10 +148,10 @@ class InterpolationProblem:
 
         A reduced model has its own, larger range: its energy has fewer tets.
         """
-        if isinstance(self.mesh, ShellMesh):
-            corners = self.poses.shapes[:, self.mesh.cells]
-            return triangle_range(corners) if isinstance(self.material, ARAP) else None
-        return certain_range(self.material, self.poses.shapes[:, self.mesh.cells])
+        corners = self.poses.shapes[:, self.mesh.cells]
+        if is_of_stars(self.mesh, self.material):
+            return triangle_range(corners)
+        return certain_range(self.material, corners) if isinstance(self.mesh, TetMesh) else None
 
     @cached_property
     def element_material(self) -> Material | ShellMaterial:

@@ -104,7 +104,8 @@ def test_the_probe_sees_the_gradient_of_the_whole_surface(model: PosingModel) ->
     session.pose(w)
     gradient = problem.value_and_gradient(session.vertices, w)[1].reshape(-1, 3)
     exact = np.sqrt(sampled.weights @ (gradient[sampled.vertices] ** 2).sum(axis=1))
-    assert session.residual(sampled) == pytest.approx(exact, rel=1e-8)
+    # rows are in single precision
+    assert session.residual(sampled) == pytest.approx(exact, rel=1e-6)
 
 
 def test_frames_have_certificates(model: PosingModel, snapshots: Snapshots) -> None:

@@ -53,7 +53,7 @@ def test_residuals_of_a_posed_surface(posed: PosingModel) -> None:
         for chosen, expected in samples(gradient):
             probe = residual_probe(problem, posed.subspace, chosen)
             found = probe.norm(q[:size], problem.offsets(parameters))
-            assert found == pytest.approx(expected, rel=1e-5)
+            assert found == pytest.approx(expected, rel=1e-6)
 
 
 def test_residuals_of_a_blend(blended: InterpolationModel) -> None:
@@ -63,4 +63,4 @@ def test_residuals_of_a_blend(blended: InterpolationModel) -> None:
         _, gradient = problem.value_and_gradient(shape, weights)
         for chosen, expected in samples(gradient):
             probe = residual_probe(problem, blended.subspace, chosen)
-            assert probe.norm(q, weights) == pytest.approx(expected, rel=1e-5)
+            assert probe.norm(q, weights) == pytest.approx(expected, rel=1e-6)
