@@ -37,7 +37,8 @@ def posed_surface(name: str, thickness: float) -> ss.PosingProblem:
     feet = low < np.quantile(low, HELD)
     head = (along < np.quantile(along, HELD)) & ~feet
     domain = ss.HandleBox(translation=0.1 * mesh.diagonal, angle=np.pi / 6)
-    return ss.PosingProblem(mesh, ss.Handles([feet, head], names=["feet", "head"]), domain=domain)
+    handles = ss.Handles([feet, head], names=["feet", "head"])
+    return ss.PosingProblem(mesh, handles, domain=domain, material=ss.StableNeoHookean())
 
 
 def rows(args: argparse.Namespace) -> Iterator[dict[str, Any]]:

@@ -115,5 +115,6 @@ def shell_option(command: Command) -> Command:
         type=click.FloatRange(min=0, min_open=True),
         metavar="THICKNESS",
         help="Take a surface as a thin shell of this thickness, in its unit of length, instead of "
-        "filling it. It may be open.",
+        "filling it. It may be open. The thickness counts where a material is given: the usual one "
+        "is as rigid as possible.",
     )(command)

@@ -1,13 +1,13 @@
 """Materials: elastic densities and their moduli."""
 
-from .arap import ARAP, BLEND_RADIUS
+from .arap import ARAP, SURFACE_RADIUS
 from .corotational import Corotational
 from .material import Material
 from .materials import (
     DEFAULT_MATERIAL,
     MATERIALS,
     checked_material,
-    default_blend_material,
+    default_material,
     material_class,
 )
 from .mooney_rivlin import MooneyRivlin
@@ -17,9 +17,9 @@ from .symmetric_dirichlet import SymmetricDirichlet
 
 __all__ = [
     "ARAP",
-    "BLEND_RADIUS",
     "DEFAULT_MATERIAL",
     "MATERIALS",
+    "SURFACE_RADIUS",
     "Corotational",
     "Material",
     "MooneyRivlin",
@@ -27,6 +27,6 @@ __all__ = [
     "StableNeoHookean",
     "SymmetricDirichlet",
     "checked_material",
-    "default_blend_material",
+    "default_material",
     "material_class",
 ]

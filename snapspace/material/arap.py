@@ -9,9 +9,9 @@ from typing import ClassVar
 from .material import SETTING
 from .shear_material import ShearMaterial
 
-#: Radius of the stars of surfaces whose poses are blended, unless another is given. Chosen on one
-#: set of poses: full solutions are unique with it, and small parts keep most of their areas.
-BLEND_RADIUS = 0.02
+#: Radius of the stars of surfaces whose material is not named. Chosen on one set of poses: full
+#: solutions are unique with it, and small parts keep most of their areas.
+SURFACE_RADIUS = 0.02
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -31,7 +31,7 @@ class ARAP(ShearMaterial):
         everywhere with 0, the neighbourhoods are those of all vertices, with the triangles around
         each: spokes and rims (Sorkine, Alexa 2007). Larger ones are like the rotation clusters of
         Jacobson, Baran, Kavan, Popovic, Sorkine 2012. Parts smaller than twice the radius are
-        blended linearly; blends of surfaces take 0.02 by themselves.
+        blended linearly; surfaces of no other material have 0.02.
 
     Raises
     ------

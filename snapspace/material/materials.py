@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .arap import ARAP, BLEND_RADIUS
+from .arap import ARAP, SURFACE_RADIUS
 from .corotational import Corotational
 from .material import Material
 from .mooney_rivlin import MooneyRivlin
@@ -18,7 +18,7 @@ MATERIALS: dict[str, type[Material]] = {
     for material in (StableNeoHookean, Corotational, ARAP, StVK, SymmetricDirichlet, MooneyRivlin)
 }
 
-#: What a body is made of where the user names no material.
+#: What a solid is made of where the user names no material.
 DEFAULT_MATERIAL = StableNeoHookean
 
 
@@ -29,9 +29,9 @@ def material_class(kind: str) -> type[Material]:
     return MATERIALS[kind]
 
 
-def default_blend_material(*, surfaces: bool) -> Material:
-    """What poses are made of where the user names no material."""
-    return ARAP(radius=BLEND_RADIUS) if surfaces else DEFAULT_MATERIAL()
+def default_material(*, surface: bool) -> Material:
+    """What a body is made of where the user names no material."""
+    return ARAP(radius=SURFACE_RADIUS) if surface else DEFAULT_MATERIAL()
 
 
 def checked_material(material: Any, count: int, who: str) -> Material:

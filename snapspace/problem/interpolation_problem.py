@@ -15,7 +15,7 @@ from scipy.sparse import csr_array
 from .. import _core as core
 from ..energy import PoseEnergies, ShellMaterial, is_of_stars
 from ..interruptible import run_abandonable
-from ..material import Material, checked_material, default_blend_material
+from ..material import Material, checked_material, default_material
 from ..mesh import ShellMesh, TetMesh, mass_matrix, mass_of_cells, tet_volumes, triangle_areas
 from ..registration import registered
 from .certain_range import CertainRange, certain_range
@@ -73,7 +73,7 @@ class InterpolationProblem:
         mean_shape: ArrayLike | None = None,
     ) -> None:
         self.poses = as_poses(poses)
-        made_of = material or default_blend_material(surfaces=isinstance(self.mesh, ShellMesh))
+        made_of = material or default_material(surface=isinstance(self.mesh, ShellMesh))
         self.material = checked_material(made_of, len(self.mesh.cells), "InterpolationProblem")
         self.domain = Simplex(corners=len(self.poses), extrapolation=extrapolation)
         if mean_shape is not None:

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from ..material import DEFAULT_MATERIAL, Material, StVK, material_class
-from ..mesh import Body
+from ..material import DEFAULT_MATERIAL, Material, StVK, default_material, material_class
+from ..mesh import Body, ShellMesh
 from .json_entries import as_list, as_number, as_object, as_text, within
 from .material_regions import regions_content, with_regions
 from .moduli_entries import NAMES, Value, moduli_of
@@ -23,9 +23,10 @@ def material_from(value: Any, mesh: Body) -> Material:
     value : object
         {"model": kind, moduli by name} or {"model": kind, "young", "poisson"}, settings by name,
         and "regions", see `with_regions`. Values of moduli are numbers, or lists with one number
-        per tet; what is missing has the default of the class. Without "model" it is the default
-        material. But if "lam" or "mu" is there and nothing else, it is St.Venant-Kirchhoff: old
-        files named no model.
+        per tet; what is missing has the default of the class. Without "model" it is stable
+        neo-Hookean, and without moduli as well the default of the body, which for shells is `ARAP`
+        with a radius. But if "lam" or "mu" is there and nothing else, it is St.Venant-Kirchhoff:
+        old files named no model.
     mesh : TetMesh or ShellMesh
 
     Raises
@@ -35,6 +36,9 @@ def material_from(value: Any, mesh: Body) -> Material:
         of range or for another number of tets, or a faulty region. The message names the entry.
     """
     content = as_object(value, "material")
+    usual = default_material(surface=isinstance(mesh, ShellMesh))
+    if not content.keys() - {_REGIONS, *usual.setting_names()}:
+        content = {_MODEL: usual.kind, **usual.settings, **content}
     with within("material"):
         kind = _class_of(content)
     settings = kind.setting_names()

@@ -16,7 +16,7 @@ from scipy.sparse import csr_array
 from .. import _core as core
 from ..energy import ElasticEnergy, ShellMaterial
 from ..interruptible import run_abandonable
-from ..material import DEFAULT_MATERIAL, Material, checked_material
+from ..material import Material, checked_material, default_material
 from ..mesh import Body, ShellMesh, mass_matrix
 from .handle_box import HandleBox
 from .handle_response import HandleResponse
@@ -41,9 +41,10 @@ class PosingProblem:
     mesh : TetMesh or ShellMesh
     handles : Handles
         The first one stays at rest while sampling, as do those whose bounds are zero.
-    material : Material, default StableNeoHookean(lam=1, mu=1)
+    material : Material, default StableNeoHookean(lam=1, mu=1), of shells ARAP(radius=0.02)
         Moduli are numbers, or arrays with one number per tet or triangle. Of a shell it is
-        `StableNeoHookean`, `StVK` or `ARAP`, see `ElasticEnergy`.
+        `StableNeoHookean`, `StVK` or `ARAP`, see `ElasticEnergy`; the thickness is only a factor
+        for `ARAP`.
     stiffness : float, optional
         Weight of the handles, > 0, in energy per volume and squared length (paper, mu of eq. 2).
         Default: `usual_stiffness`, which follows the size and the moduli of the body.
@@ -70,8 +71,9 @@ class PosingProblem:
     ) -> None:
         self.mesh = mesh
         self.handles = handles
-        given = DEFAULT_MATERIAL() if material is None else material
-        self.material = checked_material(given, len(mesh.cells), "PosingProblem")
+        if material is None:
+            material = default_material(surface=isinstance(mesh, ShellMesh))
+        self.material = checked_material(material, len(mesh.cells), "PosingProblem")
         if stiffness is None:
             stiffness = usual_stiffness(mesh, self.material)
         self.stiffness = float(stiffness)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from ..material import DEFAULT_MATERIAL, Material
+from ..material import Material
 from ..mesh import Body as Mesh
 from ..mesh import EmbeddedSurface, MirrorPlane
 from ..model_file.appearance import appearance_notes
@@ -29,7 +29,7 @@ class Body:
     up : axis that points up, or None if no file says it and it is no surface
     mirror : MirrorPlane that a file gives, or None
     painted : by the name of a handle, the vertices of the surface where it was painted
-    material : that of the problem, or another one to begin with
+    material : Material to begin with, or None for the usual one
     notices : what was mended or left out when the mesh was made, or is not shown, for the reader
     """
 
@@ -43,7 +43,7 @@ class Body:
     up: str | None = None
     mirror: MirrorPlane | None = None
     painted: Mapping[str, Sequence[int]] = field(default_factory=dict)
-    material: Material = field(default_factory=DEFAULT_MATERIAL)
+    material: Material | None = None
     notices: tuple[str, ...] = ()
 
 

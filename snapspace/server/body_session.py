@@ -52,8 +52,8 @@ class BodySession:
         self._saved = SavedFiles()
         self._problem = body.problem
         given = body.material if body.problem is None else body.problem.material
-        self._given = fitted_material(given, body.mesh)
-        self._material = self._given  # that of the last computation, without parts
+        self._given = given
+        self._material = given  # that of the last computation, without parts; None: the usual one
         self._factors: FloatArray | None = None  # by tet, from the parts
         self._selection: Selection | None = None
         self._painted: tuple[messages.HandleChoice, ...] = ()  # if the body has its own surface
@@ -83,7 +83,7 @@ class BodySession:
         problem = self._make_problem(
             selection, self._stiffness, with_factors(material, factors), mesh=body.mesh
         )
-        self.body, self._regions, self._material = body, regions, material
+        self.body, self._regions = body, regions
         self._selection, self._factors, self._painted = selection, factors, painted
         self._extension = None
         return messages.Chosen(request=choice.request, handles=problem.handles.names)
@@ -102,8 +102,9 @@ class BodySession:
         """
         if self._selection is None:
             raise ValueError("no handles are chosen; choose at least two, one of them fixed")
-        given = fitted_material(self._given, self.body.mesh)
-        material = chosen_material(given, kind=order.material, poisson=order.poisson)
+        material = chosen_material(
+            self._given, self.body.mesh, kind=order.material, poisson=order.poisson
+        )
         problem = self._make_problem(
             self._selection, order.stiffness, with_factors(material, self._factors)
         )
@@ -199,7 +200,7 @@ class BodySession:
         self._settle()
         if self._selection is None:
             raise ValueError("save: no handles are chosen, so there is nothing to save")
-        material = with_factors(self._material, self._factors)
+        material = with_factors(fitted_material(self._material, self.body.mesh), self._factors)
         problem = self._make_problem(self._selection, self._stiffness, material)
         model = self._models.current
         return self._saved.save(
@@ -237,7 +238,7 @@ class BodySession:
     def _stiffness(self) -> float:
         """That of the last computation or problem file, else the usual one for the mesh."""
         return (
-            usual_stiffness(self.body.mesh, self._given)
+            usual_stiffness(self.body.mesh, fitted_material(self._given, self.body.mesh))
             if self._problem is None
             else (self._problem.stiffness)
         )

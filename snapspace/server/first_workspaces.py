@@ -10,7 +10,7 @@ from ..mesh import ShellMesh, TetMesh
 from . import messages
 from .body import Body
 from .body_choice import shown_thickness
-from .materials import material_choices, shown_poisson
+from .materials import fitted_material, material_choices, shown_poisson, usual_kind
 from .selection import ANGLE, TRANSLATION_SHARE, as_vector, choices_of
 from .settings import ServerSettings
 from .surface_regions import SurfaceRegions
@@ -34,6 +34,8 @@ def empty_workspace(settings: ServerSettings, *, name: str, up: str) -> messages
         stiffness=1000.0,
         materials=material_choices(),
         material=DEFAULT_MATERIAL.kind,
+        solid_material=usual_kind(None, shell=False),
+        shell_material=usual_kind(None, shell=True),
         poisson=shown_poisson(DEFAULT_MATERIAL()),
         folder=str(settings.folder),
         upload_limit=settings.upload_limit,
@@ -59,7 +61,7 @@ def surface_workspace(
 def mesh_workspace(
     empty: messages.Workspace,
     body: Body,
-    material: Material,
+    material: Material | None,
     regions: SurfaceRegions | None,
     *,
     mesh: str,
@@ -71,8 +73,8 @@ def mesh_workspace(
     empty : Workspace
         That of a page without a mesh.
     body : Body
-    material : Material
-        To begin with.
+    material : Material or None
+        To begin with; None: the usual one.
     regions : SurfaceRegions or None
         If the body has its own surface, the regions of that.
     mesh : str
@@ -89,8 +91,10 @@ def mesh_workspace(
         diagonal=shape.diagonal,
         translation=(length, length, length),
         angle=(ANGLE, ANGLE, ANGLE),
-        material=material.kind,
-        poisson=shown_poisson(material),
+        material=fitted_material(material, shape).kind,
+        solid_material=usual_kind(material, shell=False),
+        shell_material=usual_kind(material, shell=True),
+        poisson=shown_poisson(material or DEFAULT_MATERIAL()),
         folder=str(body.folder),
         up=body.up or empty.up,
         has_surface=surface is not None,
@@ -122,3 +126,18 @@ def with_choices(begun: messages.Workspace, kept: messages.Keep | None) -> messa
     del chosen["request"]
     chosen |= {"poisson": begun.poisson, "own_poisson": kept.poisson}
     return replace(begun, **chosen)
+
+
+def in_another_form(
+    kept: messages.Keep, thickness: float | None, given: Material | None
+) -> messages.Keep:
+    """The choices for a body that becomes a shell of a thickness, or with None a solid.
+
+    Parameters
+    ----------
+    given : Material or None
+        That of the body; None: the usual one. What is usual for the other form takes its place.
+    """
+    before, after = (usual_kind(given, shell=t is not None) for t in (kept.thickness, thickness))
+    material = after if kept.material == before else kept.material
+    return replace(kept, thickness=thickness, material=material)

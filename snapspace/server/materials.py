@@ -5,7 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from ..energy.shell_material import SHELLS
-from ..material import DEFAULT_MATERIAL, MATERIALS, Material, material_class
+from ..material import (
+    ARAP,
+    DEFAULT_MATERIAL,
+    MATERIALS,
+    SURFACE_RADIUS,
+    Material,
+    default_material,
+    material_class,
+)
 from ..mesh import Body, ShellMesh
 from .messages import MaterialChoice
 
@@ -26,15 +34,20 @@ def material_choices() -> tuple[MaterialChoice, ...]:
     )
 
 
-def chosen_material(given: Material, *, kind: str | None, poisson: float | None) -> Material:
+def chosen_material(
+    given: Material | None, mesh: Body, *, kind: str | None, poisson: float | None
+) -> Material:
     """The material that a message chooses.
 
     Parameters
     ----------
-    given : Material
-        The material of the problem file, or the default one.
+    given : Material or None
+        The material of the problem file; None: it has none.
+    mesh : TetMesh or ShellMesh
+        What is made of it.
     kind : str or None
-        The kind of another material with the same Lame parameters; None: that of `given`.
+        The kind of another material with the same Lame parameters; None: that of `given`, or the
+        usual one of the body.
     poisson : float or None
         Poisson's ratio, from 0 to 0.49, with the shear modulus of `given`; None: that of `given`.
 
@@ -48,15 +61,32 @@ def chosen_material(given: Material, *, kind: str | None, poisson: float | None)
             f"Poisson's ratio is {poisson:g}, but it must be from 0 to {MOST_POISSON}, since tets "
             "lock beyond that"
         )
-    made = type(given) if kind is None else material_class(kind)
-    if poisson is not None:
-        lam = 2.0 * np.asarray(given.mu) * poisson / (1.0 - 2.0 * poisson)
-        return made.from_lame(lam=lam, mu=given.mu)
-    return given if made is type(given) else made.from_lame(lam=given.lam, mu=given.mu)
+    own = fitted_material(given, mesh)
+    made = type(own) if kind is None else material_class(kind)
+    if poisson is None and made is type(own):
+        return own
+    moduli = DEFAULT_MATERIAL() if given is None else own
+    lam = (
+        moduli.lam if poisson is None else 2.0 * np.asarray(moduli.mu) * poisson / (1 - 2 * poisson)
+    )
+    if made is ARAP and isinstance(mesh, ShellMesh):
+        return ARAP(mu=moduli.mu, radius=own.radius if isinstance(own, ARAP) else SURFACE_RADIUS)
+    return made.from_lame(lam=lam, mu=moduli.mu)
 
 
-def fitted_material(material: Material, mesh: Body) -> Material:
-    """The material for a body: one that shells can be made of; means of moduli for other cells."""
+def usual_kind(given: Material | None, *, shell: bool) -> str:
+    """Kind of the material that a solid or a shell begins with."""
+    usual = default_material(surface=shell) if given is None else given
+    return usual.kind if not shell or isinstance(usual, SHELLS) else DEFAULT_MATERIAL.kind
+
+
+def fitted_material(material: Material | None, mesh: Body) -> Material:
+    """The material for a body: the usual one without another.
+
+    Shells have one that they can be made of, and other cells the means of moduli.
+    """
+    if material is None:
+        return default_material(surface=isinstance(mesh, ShellMesh))
     if isinstance(mesh, ShellMesh) and not isinstance(material, SHELLS):
         material = DEFAULT_MATERIAL.from_lame(lam=material.lam, mu=material.mu)
     moduli = {name: getattr(material, name) for name in material.names()}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import AbstractContextManager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy as np
 from ..doctor.holes import holes_of
 from ..filling import SurfaceFilling
 from ..input_error import located
-from ..material import DEFAULT_MATERIAL, Material
+from ..material import Material
 from ..mesh import Body as Mesh
 from ..mesh import EmbeddedSurface, MirrorPlane, ShellMesh, SurfaceFile, embed_file, shell_of_file
 from ..mesh.edges import edges_of
@@ -43,7 +43,7 @@ class UserSurface:
     path: Path | None
     up: str | None = None
     mirror: MirrorPlane | None = None
-    material: Material = field(default_factory=DEFAULT_MATERIAL)
+    material: Material | None = None
 
     @property
     def diagonal(self) -> float:

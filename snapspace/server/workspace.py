@@ -16,7 +16,7 @@ from .bodies import model_body
 from .body import Body
 from .body_session import BodySession
 from .exports import Exports
-from .first_workspaces import empty_workspace, surface_workspace, with_choices
+from .first_workspaces import empty_workspace, in_another_form, surface_workspace, with_choices
 from .mesh_pack import packed_mesh
 from .models import Models
 from .opening import Opening
@@ -194,7 +194,7 @@ class Workspace:
         kept = self._draft
         surface = self._surface or surface_of(self._current_session().body)
         make = reopening(surface, order.thickness, self._settings.filling)
-        draft = None if kept is None else replace(kept, thickness=order.thickness)
+        draft = kept and in_another_form(kept, order.thickness, surface.material)
         self._emit(messages.Reopened(request=order.request))
 
         self._open(make, surface.name, draft=draft, before=self._session)

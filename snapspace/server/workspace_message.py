@@ -27,6 +27,7 @@ class Workspace:
     diagonal : diagonal of the mesh; 0 if there is none
     target_error, most_samples, seed, stiffness, material, poisson : initial values for `Compute`
     materials : materials that can be chosen
+    solid_material, shell_material : kinds of the materials that a solid and a shell begin with
     folder : folder where `Save` writes, to show to the reader
     upload_limit : largest upload, in bytes
     own_poisson : Poisson's ratio that the page chose in place of `poisson`; null: none
@@ -55,6 +56,8 @@ class Workspace:
     stiffness: float
     materials: tuple[MaterialChoice, ...]
     material: str
+    solid_material: str
+    shell_material: str
     poisson: float | None
     folder: str
     upload_limit: int

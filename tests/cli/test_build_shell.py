@@ -58,11 +58,18 @@ def problem(folder: Path, **changes: Any) -> Path:
 SHELL = {"surface": "sheet.obj", "body": {"shell": {"thickness": 0.05}}}
 
 
+@pytest.mark.parametrize(
+    ("changes", "elements"),
+    [
+        ({}, "rigid neighbourhoods"),
+        ({"material": {"model": "stable-neo-hookean"}}, "triangles and hinges"),
+    ],
+)
 def test_a_surface_becomes_a_shell_and_comes_back_posed(
-    run: Run, surface: Path, tmp_path: Path
+    run: Run, surface: Path, tmp_path: Path, changes: dict[str, Any], elements: str
 ) -> None:
     model = tmp_path / "sheet.snapspace"
-    given = problem(tmp_path)
+    given = problem(tmp_path, **changes)
     built = run(
         "build", "--problem", given, surface, "--shell", 0.05, *SMALL, "-o", model, "--json"
     )
@@ -90,7 +97,7 @@ def test_a_surface_becomes_a_shell_and_comes_back_posed(
 
     told = run("info", model, "--json").json
     assert told["mesh"]["boundary_edges"] == 20 and told["mesh"]["components"] == 1
-    assert "triangles and hinges" in told["energy"]
+    assert elements in told["energy"]
 
 
 def test_a_problem_file_describes_a_shell(run: Run, surface: Path, tmp_path: Path) -> None:

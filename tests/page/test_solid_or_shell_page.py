@@ -71,6 +71,7 @@ def test_an_open_surface_is_a_shell_that_is_posed_saved_and_reloaded(
     chosen = take_ends(page)
     options = page.page.locator("select[aria-label=Material] option:disabled").all_inner_texts()
     assert options and not any("neo-Hookean" in option for option in options)
+    assert page.page.get_by_label("Material").input_value() == "arap"
     page.page.wait_for_timeout(300)  # choices are kept soon
     page.page.reload()
     page.wait("snapspace.kind === 'choosing'")
@@ -125,8 +126,16 @@ def test_a_closed_surface_is_a_shell_at_once_and_a_solid_later(
     page.wait("snapspace.kind === 'choosing'")
     assert is_chosen(page, "Solid") and handles(page) == chosen
     assert page.page.get_by_label("Thickness").is_hidden()
+    material = page.page.get_by_label("Material")
+    assert material.input_value() == "stable-neo-hookean"
     choose(page, "Shell")
     assert page.page.get_by_label("Thickness").is_visible()
+    assert material.input_value() == "arap"
+    material.select_option("stvk")
+    choose(page, "Solid")
+    assert material.input_value() == "stvk", "what was chosen stays"
+    material.select_option("stable-neo-hookean")
+    choose(page, "Shell")
     assert "of the diagonal" in page.text("#body-hint")
     press(page, "Save handles")
     wait_for_text(page, "#panel", "Saved")

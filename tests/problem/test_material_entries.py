@@ -19,6 +19,8 @@ from snapspace import (
 from snapspace.generators import bar
 from snapspace.problem.material_entries import material_content, material_from
 
+from ..shells.sheets import sheet
+
 MESH = bar(4, 1, 1)  # x = 0, 1, 2, 3, 4; six tets in each cube
 COUNT = len(MESH.tets)
 CENTROIDS = MESH.vertices[MESH.tets].mean(axis=1)
@@ -47,6 +49,27 @@ def test_every_material_goes_by_its_name_and_the_names_of_its_moduli(kind: str) 
 )
 def test_without_a_model_files_mean_what_they_meant(content: Any, expected: Material) -> None:
     assert material_from(content, MESH) == expected
+
+
+@pytest.mark.parametrize(
+    ("content", "expected"),
+    [
+        ({}, ARAP(radius=0.02)),
+        ({"radius": 0.05}, ARAP(radius=0.05)),
+        ({"young": 2.0, "poisson": 0.25}, StableNeoHookean(lam=0.8, mu=0.8)),
+        ({"lam": 2.0}, StVK(lam=2.0)),
+        ({"model": "arap"}, ARAP()),
+    ],
+)
+def test_shells_are_as_rigid_as_possible_if_nothing_is_said_of_moduli(
+    content: Any, expected: Material
+) -> None:
+    assert material_from(content, sheet(2, 2)) == expected
+
+
+def test_a_solid_has_no_radius() -> None:
+    with pytest.raises(ValueError, match="radius"):
+        material_from({"radius": 0.05}, MESH)
 
 
 def test_young_and_poisson_are_those_of_a_pulled_bar() -> None:

@@ -116,6 +116,9 @@ def test_a_filled_surface_becomes_a_shell_with_the_same_handles(tmp_path: Path) 
         assert painted == [list(handle.vertices) for handle in ends(shown)]
         expected = None if thickness is None else {"shell": {"thickness": thickness}}
         assert content.get("body") == expected
+        usual = {"model": "stable-neo-hookean", "lam": 1.0, "mu": 1.0}
+        rigid = {"model": "arap", "mu": 1.0, "radius": 0.02}
+        assert content["material"] == (usual if thickness is None else rigid)
         assert ("mesh" in content) == (thickness is None)
 
 

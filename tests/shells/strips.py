@@ -59,7 +59,7 @@ def shell_model(
         mesh,
         Handles([along < 0.1, along > 0.9, np.abs(along - 0.5) < 0.05]),
         domain=HandleBox(translation=0.1, angle=0.3),
-        material=material,
+        material=material or StableNeoHookean(),
     )
     snapshots = solve_snapshots(problem, sample(problem.domain, 40, seed=1), threads=1)
     return reduce(problem, snapshot_pca(snapshots, dimension=12), snapshots=snapshots)
@@ -91,12 +91,12 @@ def strip_problem(
     translation: float = 0.3,
     angle: float = 0.6,
 ) -> PosingProblem:
-    """A strip that is held at its beginning, and moved at its end."""
+    """A strip that is held at its beginning, and moved at its end; by default neo-Hookean."""
     mesh = mesh or strip()
     along = _along(mesh)
     return PosingProblem(
         mesh,
         Handles([along < 0.1, along > 0.9], names=["root", "tip"]),
         domain=HandleBox(translation=translation, angle=angle),
-        material=material,
+        material=material or StableNeoHookean(),
     )

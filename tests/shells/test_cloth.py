@@ -15,6 +15,7 @@ from snapspace import (
     PosingModel,
     PosingProblem,
     ShellMesh,
+    StableNeoHookean,
     reduce,
     sample,
     snapshot_pca,
@@ -28,8 +29,8 @@ FloatArray = NDArray[np.float64]
 FOLDED = 3.0
 
 
-@pytest.fixture(scope="module")
-def model() -> PosingModel:
+@pytest.fixture(params=[None, StableNeoHookean()], ids=["default", "hinges"], scope="module")
+def model(request: pytest.FixtureRequest) -> PosingModel:
     """A square with folds, 288 triangles, in 40 dimensions."""
     flat = sheet(12, 12, size=(1.0, 1.0), alternating=True)
     x, y, _ = flat.vertices.T
@@ -37,7 +38,8 @@ def model() -> PosingModel:
     mesh = ShellMesh(np.stack([x, y, folds], 1), flat.triangles, thickness=0.03)
     corners = [(side < 0.1) & (y > 0.9) for side in (x, 1.0 - x)]
     box = HandleBox(translation=0.14, angle=np.pi / 4)
-    problem = PosingProblem(mesh, Handles(corners, names=["left", "right"]), domain=box)
+    handles = Handles(corners, names=["left", "right"])
+    problem = PosingProblem(mesh, handles, domain=box, material=request.param)
     snapshots = solve_snapshots(problem, sample(box, 80, seed=1), threads=1)
     made = reduce(problem, snapshot_pca(snapshots, dimension=40), snapshots=snapshots, threads=1)
     assert isinstance(made, PosingModel)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from snapspace import (
+    ARAP,
     HandleBox,
     Handles,
     PosingProblem,
@@ -141,7 +142,8 @@ def test_every_component_must_be_held() -> None:
     message = "component 1 of 2, that of vertex 25, is not held: 0 of its vertices are in handles"
     with pytest.raises(ValueError, match=message):
         PosingProblem(both, handles, domain=domain)
-    PosingProblem(both, Handles([left, ~left]), domain=domain)
+    held = PosingProblem(both, Handles([left, ~left]), domain=domain)
+    assert held.material == ARAP(radius=0.02), "surfaces are as rigid as possible by default"
 
 
 def test_a_single_row_of_vertices_holds_no_sheet() -> None:

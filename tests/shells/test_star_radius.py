@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from snapspace import ARAP, ElasticEnergy, ShellMesh
 from snapspace import _core as core
 
-from .sheets import equilateral, irregular, rolled, sphere
+from .sheets import equilateral, irregular, rolled, sheet, sphere
 
 FloatArray = NDArray[np.float64]
 
@@ -100,6 +100,17 @@ def test_a_finer_surface_bends_as_a_coarser_one() -> None:
     assert fine == pytest.approx(coarse, rel=0.1)
     assert finest == pytest.approx(fine, rel=0.1)
     assert bending(48, 0.2) > 2.5 * fine
+
+
+@pytest.mark.parametrize("radius", [0.02, 0.04])
+def test_a_surface_bends_as_a_plate_of_nearly_twice_the_radius(radius: float) -> None:
+    """Of the same membrane; by the energy of a sheet that is rolled to a cylinder."""
+    flat = sheet(120, 120, thickness=1.0, alternating=True)
+    curvature, material = 0.5, ARAP(radius=radius)
+    bent = ElasticEnergy(flat, material).value(rolled(flat.vertices, curvature))
+    stiffness = 2.0 * bent / (curvature**2 * flat.areas.sum())  # D / thickness
+    plate = (2.0 * material.mu + 2.0 / 3.0) / 12.0  # D / thickness^3, of lam = mu
+    assert np.sqrt(stiffness / plate) == pytest.approx(1.8 * radius * flat.diagonal, rel=0.06)
 
 
 def test_areas_of_stars_are_those_of_the_surface() -> None:

@@ -22,6 +22,7 @@ export type * from "./page_messages.ts";
  * diagonal : diagonal of the mesh; 0 if there is none
  * target_error, most_samples, seed, stiffness, material, poisson : initial values for `Compute`
  * materials : materials that can be chosen
+ * solid_material, shell_material : kinds of the materials that a solid and a shell begin with
  * folder : folder where `Save` writes, to show to the reader
  * upload_limit : largest upload, in bytes
  * own_poisson : Poisson's ratio that the page chose in place of `poisson`; null: none
@@ -51,6 +52,8 @@ export interface Workspace {
   readonly stiffness: number;
   readonly materials: readonly MaterialChoice[];
   readonly material: string;
+  readonly solid_material: string;
+  readonly shell_material: string;
   readonly poisson: number | null;
   readonly folder: string;
   readonly upload_limit: number;

@@ -5,10 +5,10 @@ import { h, section } from "./dom.ts";
 const MOST_POISSON = 0.49; // tets lock beyond
 
 /** What the server offers, and begins with. */
-export type Materials = Pick<Workspace, "materials" | "material" | "poisson">;
+export type Materials = Pick<Workspace, "materials" | "solid_material" | "shell_material" | "poisson">;
 
 /** The material, and below it the parts of the body that are stiffer or softer. Changes `sampling`. After it has become
- * a shell or a solid, `update` shows which materials it can have. */
+ * a shell or a solid, `update` shows which materials it can have, and takes the usual one unless the user chose another. */
 export function materialPanel(sampling: Sampling, given: Materials, parts: HTMLElement) {
   const select = h("select", { "aria-label": "Material" });
   select.append(...given.materials.map(({ kind, title }) => h("option", { value: kind }, capital(title))));
@@ -23,15 +23,14 @@ export function materialPanel(sampling: Sampling, given: Materials, parts: HTMLE
     if (ratio.validity.valid) sampling.poisson = isGiven ? null : ratio.valueAsNumber;
   });
   const field = h("label", { className: "field" }, h("span", {}, "Poisson's ratio"), ratio);
+  const usual = () => (sampling.thickness === null ? given.solid_material : given.shell_material);
+  let last = usual();
   const update = () => {
     const isShell = sampling.thickness !== null;
     given.materials.forEach(({ makes_shells }, i) => (select.options[i].disabled = isShell && !makes_shells));
-    if (select.selectedOptions[0]?.disabled) {
-      const fitting = given.materials.filter(({ makes_shells }) => makes_shells);
-      sampling.material = select.value = (
-        fitting.find(({ kind }) => kind === given.material) ?? fitting[0]
-      ).kind;
-    }
+    if (select.selectedOptions[0]?.disabled || select.value === last)
+      sampling.material = select.value = usual();
+    last = usual();
     field.hidden = !given.materials.find(({ kind }) => kind === select.value)?.has_poisson;
     if (!field.hidden) return;
     sampling.poisson = null;
