@@ -1,4 +1,4 @@
-import { triangleNormals } from "./triangles.ts";
+import { triangleHats } from "./triangle_hats.ts";
 import { oneRings, type RigidSurface } from "./vertex_stars.ts";
 
 /** The gradient of a surface's Dirichlet energy, the sum over triangles of stiffness * area * |grad u|^2, at some vertices. */
@@ -7,22 +7,18 @@ export class DirichletForces {
   readonly #rows: readonly (readonly (readonly [number, number])[])[];
 
   constructor(shape: Float64Array, { triangles, stiffness }: RigidSurface, vertices: Int32Array) {
-    const normals = triangleNormals(shape, triangles); // as long as twice the areas
+    const { areas, gradients } = triangleHats(shape, triangles);
     this.#rows = oneRings(triangles, vertices, shape.length / 3).map((ring, row) => {
       const sums = new Map<number, number>();
       for (const triangle of Array.from(ring.triangles)) {
         const corners = triangles.subarray(3 * triangle, 3 * triangle + 3);
-        // a hat's gradient is its opposite edge turned by a right angle, over twice the area
-        const opposite = [0, 1, 2].map((k) =>
-          [0, 1, 2].map(
-            (axis) => shape[3 * corners[(k + 2) % 3] + axis] - shape[3 * corners[(k + 1) % 3] + axis],
-          ),
-        );
-        const own = opposite[corners.indexOf(vertices[row])];
-        const twice = Math.hypot(...normals.subarray(3 * triangle, 3 * triangle + 3));
+        const hats = gradients.subarray(9 * triangle, 9 * triangle + 9);
+        const own = 3 * corners.indexOf(vertices[row]);
         corners.forEach((vertex, k) => {
-          const product = own[0] * opposite[k][0] + own[1] * opposite[k][1] + own[2] * opposite[k][2];
-          sums.set(vertex, (sums.get(vertex) ?? 0) + (stiffness[triangle] * product) / twice);
+          const product =
+            hats[own] * hats[3 * k] + hats[own + 1] * hats[3 * k + 1] + hats[own + 2] * hats[3 * k + 2];
+          const coupling = 2 * stiffness[triangle] * areas[triangle] * product;
+          sums.set(vertex, (sums.get(vertex) ?? 0) + coupling);
         });
       }
       return [...sums];

@@ -1,6 +1,6 @@
 import type { Container } from "./container.ts";
 import { DirichletForces } from "./dirichlet_forces.ts";
-import { rowsAt, type StarProbe } from "./estimator.ts";
+import type { StarProbe } from "./estimator.ts";
 import type { ProbeSample, Shapes } from "./read_estimator.ts";
 import { KIND, starsIn } from "./read_stars.ts";
 import { oneRings, STAR_MODULI, VertexStars, type RigidSurface, type StarTriangles } from "./vertex_stars.ts";
@@ -23,22 +23,26 @@ export function starProbe(
   });
   const [{ parts }] = poses;
 
-  /** The numbers of a displacement from a pose. */
+  /** The numbers of a displacement from a pose: nine per star, and then the linear functions. */
   const numbersIn = ({ stars, parts, forces }: (typeof poses)[number], displacement: Float64Array) => {
     const nine = stars.numbers(displacement);
     const linear = forces.at(displacement);
     // what a star's best affine map has of the Dirichlet energy is not in the quadratic form
-    parts.stars.forEach((star, p) => {
-      for (let e = 0; e < 9; e++)
-        linear[3 * parts.places[p] + Math.floor(e / 3)] -=
-          2 * nine[9 * star + e] * parts.vectors[3 * p + (e % 3)];
-    });
-    const moved = rowsAt(displacement, vertices);
+    for (let p = 0; p < parts.stars.length; p++) {
+      const [a, b, c] = [parts.vectors[3 * p], parts.vectors[3 * p + 1], parts.vectors[3 * p + 2]];
+      for (let row = 0; row < 3; row++) {
+        const at = 9 * parts.stars[p] + 3 * row;
+        linear[3 * parts.places[p] + row] -= 2 * (nine[at] * a + nine[at + 1] * b + nine[at + 2] * c);
+      }
+    }
     pins.corners.forEach((place, i) => {
       for (let axis = 0; axis < 3; axis++)
-        linear[3 * place + axis] += pins.pulls[i] * moved[3 * place + axis];
+        linear[3 * place + axis] += pins.pulls[i] * displacement[3 * vertices[place] + axis];
     });
-    return [...nine, ...linear];
+    const all = new Float64Array(nine.length + linear.length);
+    all.set(nine);
+    all.set(linear, nine.length);
+    return all;
   };
 
   const size = 9 * chosen.length + 3 * vertices.length;

@@ -1,5 +1,5 @@
 import { symmetricEigen } from "./symmetric_eigen.ts";
-import { triangleNormals } from "./triangles.ts";
+import { triangleHats, type TriangleHats } from "./triangle_hats.ts";
 
 /** Moduli per row of the density "shell-arap", see core/material/shell_arap.h. */
 export const STAR_MODULI = 12;
@@ -34,60 +34,75 @@ export class VertexStars {
   readonly areas: Float64Array;
   /** Rows of the density "shell-arap", with the mean stiffness of each as the modulus. */
   readonly moduli: Float64Array<ArrayBuffer>;
-  readonly #corners: readonly Int32Array[];
-  readonly #gradients: readonly Float64Array[];
+  /** Corners of star i: first[i] to before first[i + 1], three numbers of the gradient each. */
+  readonly #first: Int32Array;
+  readonly #corners: Int32Array;
+  readonly #gradients: Float64Array;
 
-  constructor(shape: Float64Array, { triangles, stiffness }: RigidSurface, chosen: readonly StarTriangles[]) {
-    const normals = triangleNormals(shape, triangles);
-    const stars = chosen.map((own) => starOf(own, { shape, triangles, stiffness, normals }));
+  constructor(shape: Float64Array, surface: RigidSurface, chosen: readonly StarTriangles[]) {
+    const hats = triangleHats(shape, surface.triangles);
+    const stars = chosen.map((own) => starOf(own, surface, hats));
     this.areas = Float64Array.from(stars, (star) => star.area);
     this.moduli = new Float64Array(STAR_MODULI * stars.length);
     stars.forEach(({ weight, area, L }, star) => {
       const row = [weight / area, 0, 0, ...L.flatMap(([x, y]) => [x, y]), ...L.map((of) => of[2])];
       this.moduli.set(row, STAR_MODULI * star);
     });
-    this.#corners = stars.map((star) => Int32Array.from(star.gradients.keys()));
-    this.#gradients = stars.map((star) => Float64Array.from([...star.gradients.values()].flat()));
+    this.#first = new Int32Array(stars.length + 1);
+    stars.forEach(({ gradients }, i) => (this.#first[i + 1] = this.#first[i] + gradients.size));
+    this.#corners = Int32Array.from(stars.flatMap(({ gradients }) => [...gradients.keys()]));
+    this.#gradients = Float64Array.from(stars.flatMap(({ gradients }) => [...gradients.values()].flat()));
   }
 
   /** The nine numbers of displacements (3n) in all stars, stars x 9. */
-  numbers(displacements: ArrayLike<number>): Float64Array {
+  numbers(displacements: Float64Array): Float64Array {
+    const [first, corners, gradients] = [this.#first, this.#corners, this.#gradients];
     const numbers = new Float64Array(9 * this.areas.length);
-    this.#corners.forEach((corners, star) => {
-      const gradients = this.#gradients[star];
-      for (let corner = 0; corner < corners.length; corner++)
-        for (let e = 0; e < 9; e++)
-          numbers[9 * star + e] +=
-            displacements[3 * corners[corner] + Math.floor(e / 3)] * gradients[3 * corner + (e % 3)];
-    });
+    for (let star = 0; star < this.areas.length; star++) {
+      let xx = 0, xy = 0, xz = 0, yx = 0, yy = 0, yz = 0, zx = 0, zy = 0, zz = 0; // prettier-ignore
+      for (let corner = first[star]; corner < first[star + 1]; corner++) {
+        const vertex = 3 * corners[corner];
+        const x = displacements[vertex];
+        const y = displacements[vertex + 1];
+        const z = displacements[vertex + 2];
+        const a = gradients[3 * corner];
+        const b = gradients[3 * corner + 1];
+        const c = gradients[3 * corner + 2];
+        xx += x * a;
+        xy += x * b;
+        xz += x * c;
+        yx += y * a;
+        yy += y * b;
+        yz += y * c;
+        zx += z * a;
+        zy += z * b;
+        zz += z * c;
+      }
+      numbers.set([xx, xy, xz, yx, yy, yz, zx, zy, zz], 9 * star);
+    }
     return numbers;
   }
 
   /** Those of these stars at some vertices, in the same order for all shapes of a surface. */
   parts(vertices: Int32Array): StarParts {
     const place = new Map(Array.from(vertices, (vertex, i) => [vertex, i]));
-    const found: { star: number; place: number; vector: number[] }[] = [];
-    this.#corners.forEach((corners, star) => {
+    const [stars, places, vectors]: number[][] = [[], [], []];
+    for (let star = 0; star < this.areas.length; star++) {
       const weight = this.moduli[STAR_MODULI * star] * this.areas[star];
-      corners.forEach((vertex, corner) => {
-        const at = place.get(vertex);
-        const gradient = this.#gradients[star].subarray(3 * corner, 3 * corner + 3);
-        if (at !== undefined)
-          found.push({ star, place: at, vector: Array.from(gradient, (x) => weight * x) });
-      });
-    });
+      for (let corner = this.#first[star]; corner < this.#first[star + 1]; corner++) {
+        const at = place.get(this.#corners[corner]);
+        if (at === undefined) continue;
+        stars.push(star);
+        places.push(at);
+        for (let axis = 0; axis < 3; axis++) vectors.push(weight * this.#gradients[3 * corner + axis]);
+      }
+    }
     return {
-      stars: Int32Array.from(found, (part) => part.star),
-      places: Int32Array.from(found, (part) => part.place),
-      vectors: Float64Array.from(found.flatMap((part) => part.vector)),
+      stars: Int32Array.from(stars),
+      places: Int32Array.from(places),
+      vectors: Float64Array.from(vectors),
     };
   }
-}
-
-interface Surface extends RigidSurface {
-  readonly shape: Float64Array;
-  /** As long as twice the areas. */
-  readonly normals: Float64Array;
 }
 
 interface Star {
@@ -100,35 +115,52 @@ interface Star {
   readonly gradients: Map<number, number[]>;
 }
 
-function starOf({ triangles, shares }: StarTriangles, surface: Surface): Star {
-  const own = Array.from(triangles);
-  const sizes = own.map((t) => Math.hypot(...vectorOf(surface.normals, t)));
-  const units = own.map((t, i) => vectorOf(surface.normals, t).map((x) => x / sizes[i]));
-  const weights = own.map((t, i) => (shares[i] * surface.stiffness[t] * sizes[i]) / 6);
-  const weight = sum(weights);
-  const mean = (of: (i: number) => number) => sum(weights.map((w, i) => (w / weight) * of(i)));
-  const M = [0, 1, 2].map((r) =>
-    [0, 1, 2].map((c) => mean((i) => (r === c ? 1 : 0) - units[i][r] * units[i][c])),
-  );
+function starOf(own: StarTriangles, { triangles, stiffness }: RigidSurface, hats: TriangleHats): Star {
+  const { areas, units, gradients: ofHats } = hats;
+  const count = own.triangles.length;
+  let [area, weight] = [0, 0];
+  const weights = new Float64Array(count);
+  for (let i = 0; i < count; i++) {
+    const t = own.triangles[i];
+    const share = (own.shares[i] * areas[t]) / 3;
+    area += share;
+    weight += weights[i] = share * stiffness[t];
+  }
+  const M = [0, 1, 2].map((r) => [0, 1, 2].map((c) => (r === c ? 1 : 0)));
+  for (let i = 0; i < count; i++) {
+    const at = 3 * own.triangles[i];
+    for (let r = 0; r < 3; r++)
+      for (let c = 0; c < 3; c++) M[r][c] -= (weights[i] / weight) * units[at + r] * units[at + c];
+  }
   const axes = symmetricEigen(M).vectors;
   // not the eigenvalues, since the least one of a nearly flat star is a small difference in M
-  const squares = axes.map((axis) => mean((i) => dot(cross(axis, units[i]), cross(axis, units[i]))));
-  const roots = squares.map((square) => (square > FLAT ? Math.sqrt(square) : 0));
-  const gradients = new Map<number, number[]>();
-  own.forEach((t, i) => {
+  const roots = axes.map(([x, y, z]) => {
+    let square = 0;
+    for (let i = 0; i < count; i++) {
+      const at = 3 * own.triangles[i];
+      const [a, b, c] = [units[at], units[at + 1], units[at + 2]];
+      square += (weights[i] / weight) * ((y * c - z * b) ** 2 + (z * a - x * c) ** 2 + (x * b - y * a) ** 2);
+    }
+    return square > FLAT ? Math.sqrt(square) : 0;
+  });
+  const gradients = new Map<number, number[]>(); // in space at first
+  for (let i = 0; i < count; i++) {
+    const t = own.triangles[i];
     for (let corner = 0; corner < 3; corner++) {
-      const [vertex, from, to] = [0, 1, 2].map((k) => surface.triangles[3 * t + ((corner + k) % 3)]);
-      const opposite = minus(vectorOf(surface.shape, to), vectorOf(surface.shape, from));
-      const hat = cross(units[i], opposite); // its gradient, times the size
+      const vertex = triangles[3 * t + corner];
       const sums = gradients.get(vertex) ?? [0, 0, 0];
-      roots.forEach((root, k) => {
-        if (root > 0) sums[k] += ((weights[i] / weight) * dot(hat, axes[k])) / (sizes[i] * root);
-      });
+      const at = 9 * t + 3 * corner;
+      for (let axis = 0; axis < 3; axis++) sums[axis] += (weights[i] / weight) * ofHats[at + axis];
       gradients.set(vertex, sums);
     }
-  });
+  }
+  for (const [vertex, [x, y, z]] of gradients)
+    gradients.set(
+      vertex,
+      axes.map(([a, b, c], k) => (roots[k] > 0 ? (x * a + y * b + z * c) / roots[k] : 0)),
+    );
   const L = [0, 1, 2].map((r) => axes.map((axis, k) => axis[r] * roots[k]));
-  return { area: sum(sizes.map((size, i) => shares[i] * size)) / 6, weight, L, gradients };
+  return { area, weight, L, gradients };
 }
 
 /** The stars of some vertices with the triangles around each. */
@@ -141,16 +173,3 @@ export function oneRings(triangles: Int32Array, vertices: Int32Array, count: num
   });
   return around.map((own) => ({ triangles: own, shares: own.map(() => 1) }));
 }
-
-function vectorOf(rows: Float64Array, i: number): number[] {
-  return [rows[3 * i], rows[3 * i + 1], rows[3 * i + 2]];
-}
-
-const sum = (numbers: readonly number[]) => numbers.reduce((total, x) => total + x, 0);
-const dot = (a: readonly number[], b: readonly number[]) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const minus = (a: readonly number[], b: readonly number[]) => a.map((x, i) => x - b[i]);
-const cross = (a: readonly number[], b: readonly number[]) =>
-  [0, 1, 2].map((r) => {
-    const [s, t] = [(r + 1) % 3, (r + 2) % 3];
-    return a[s] * b[t] - a[t] * b[s];
-  });
