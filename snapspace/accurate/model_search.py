@@ -6,6 +6,7 @@ import itertools
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, replace
+from functools import partial
 from typing import Any
 
 from ..calibration import calibrate
@@ -22,7 +23,7 @@ from .growing_samples import GrowingSamples
 from .measured_ratio import measured_ratio
 from .old_model import OldModel, check_start, usual_shapes
 from .plan import plan_of, predicted_most_samples, usual_most_samples
-from .predicting import Predicting
+from .predicting import Predicting, predicting_stars
 from .solving import Solving
 from .step import Step
 from .trial import Trial, trial_of
@@ -214,7 +215,8 @@ class ModelSearch:
         """The model that predicts the next samples, if there is one."""
         if not self.samples.are_predicted:
             return self.best.model if self.best else self._first
-        model = self._predicting.model(self.samples.solved, self._model)
+        make = partial(self._model, tets=predicting_stars(self.samples.problem))
+        model = self._predicting.model(self.samples.solved, make)
         self._begins("snapshots")
         return model
 
@@ -259,7 +261,12 @@ class ModelSearch:
         )
 
     def _model(
-        self, snapshots: Snapshots, dimension: int, trained: Snapshots | None = None
+        self,
+        snapshots: Snapshots,
+        dimension: int,
+        trained: Snapshots | None = None,
+        *,
+        tets: int | None = None,
     ) -> Model:
         """Makes a model; `trained` are the snapshots that train a cubature, default all."""
         self._begins("subspace")
@@ -270,6 +277,7 @@ class ModelSearch:
             self.samples.problem,
             subspace,
             snapshots=trained or snapshots,
+            tets=tets,
             surface=self._surface,
             threads=self._solving.threads,
         )

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..cubature import has_stars
 from ..problem import InterpolationProblem, PosingProblem
 from ..sampling import Method
 from .checks import FEWEST_HELD_OUT
@@ -114,6 +115,10 @@ BLENDS = Plan(
     predicted_vertices=2_000_000,
     looser_if_large=1.0,
 )
+#: Blends of surfaces that are as rigid as possible. Their energies have no error of a cubature, so
+#: more dimensions help, and samples are predicted: ten Lions have errors of 0.0128 with 400 samples
+#: and 200 dimensions, 0.0101 with 400 and 256, and 0.0092 with 640 and 256.
+RIGID_BLENDS = replace(BLENDS, most_dimensions=256, predicted_vertices=4_000_000)
 #: For motions the ratio is 3 to 7. Where they are predicted it falls with the dimension, from 72 to
 #: 45 or 98 to 29, so that the ratio of such models would cost samples. There may be several minima.
 MOTIONS = Plan(
@@ -142,8 +147,11 @@ MOTIONS = Plan(
 
 def plan_of(problem: PosingProblem | InterpolationProblem) -> Plan:
     """The plan for a problem; two poses take Sobol points, as `blends` adds only their middle."""
-    plan = MOTIONS if isinstance(problem, PosingProblem) else BLENDS
-    if plan is BLENDS and problem.parameter_count <= 2:
+    if isinstance(problem, PosingProblem):
+        plan = MOTIONS
+    else:
+        plan = RIGID_BLENDS if has_stars(problem) else BLENDS
+    if plan is not MOTIONS and problem.parameter_count <= 2:
         plan = replace(plan, sampling="sobol")
     return plan if problem.solving.seeded_tolerance else replace(plan, pilot=0)
 

@@ -6,6 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ..cubature import element_count, has_stars
+from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import Snapshots
 from .dimension_search import MODES_PER_SOLUTION
@@ -19,6 +21,17 @@ Make = Callable[[Snapshots, int, Snapshots], Model]
 MOST_DIMENSIONS = 64
 TRAINED = 24
 ENOUGH = 1.4
+#: A model that only predicts has all stars of a surface with no more than these. On the Centaur's
+#: 981 a fit takes 6 s, and all that it would save of the predictions 0.3 s.
+FEW_STARS = 2000
+
+
+def predicting_stars(problem: PosingProblem | InterpolationProblem) -> int | None:
+    """How many stars a model has that only predicts; None for the usual number, and for tets."""
+    if not has_stars(problem):
+        return None
+    stars = element_count(problem)
+    return stars if stars <= FEW_STARS else None
 
 
 class Predicting:

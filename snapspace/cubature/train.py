@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import replace
 from typing import Any
 
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..problem import InterpolationProblem, PosingProblem
 from ..subspace import AffineSubspace
+from .all_stars import blended_stars, posed_stars, record_of, takes_all_stars
 from .blended_stars import BlendedStars
 from .blended_sum import BlendedSum
 from .cubature import Cubature
@@ -91,7 +93,8 @@ def train_cubature(
 ) -> tuple[Cubature, dict[str, Any]]:
     """Trains a cubature (An, Kim, James 2008) to have the forces and energies of all tets.
 
-    See `training_rows` and `nonnegative_fit` for the steps.
+    See `training_rows` and `nonnegative_fit` for the steps. Of a surface that is as rigid as
+    possible it has all stars, without training, where there are few: see `takes_all_stars`.
 
     Parameters
     ----------
@@ -117,7 +120,7 @@ def train_cubature(
         Bitwise the same for the same arguments.
     record : dict
         For a model's provenance: numbers of tets, states and rows, the seed, the seconds, and
-        the errors in "held_out", see `CubatureErrors`.
+        the errors in "held_out", see `CubatureErrors`; without seed and errors for all stars.
 
     Raises
     ------
@@ -125,8 +128,12 @@ def train_cubature(
         For fewer than ten states that are not at rest, or a number of tets below 1 or above that of
         the mesh.
     """
-    states = PosingStates(problem, subspace, coordinates[_moved(coordinates)], handle_hessian)
+    begin = time.perf_counter()
     usual = default_tets(subspace.dimension, shell=has_hinges(problem))
+    if takes_all_stars(problem, tets, usual):
+        exact = posed_stars(problem, subspace)
+        return exact, record_of(exact, time.perf_counter() - begin)
+    states = PosingStates(problem, subspace, coordinates[_moved(coordinates)], handle_hessian)
     budget = Budget(tets, usual, FEWEST_SNAPSHOTS, TRAINED, CANDIDATES)
     fit = fit_tets(states, budget, seed=seed, threads=threads)
     cubature = Cubature.of_tets(problem, subspace, fit.tets, fit.volumes)
@@ -156,13 +163,17 @@ def train_blended_cubature(
     weights (k, poses), the default of `tets` is `default_blended_tets`, and the subspace is
     attached to the mean shape. The poses themselves, where all tets are at rest, do not count.
     """
+    begin = time.perf_counter()
+    count = default_blended_tets(subspace.dimension, stars=has_stars(problem))
+    if takes_all_stars(problem, tets, count):
+        exact = blended_stars(problem, subspace)
+        return exact, record_of(exact, time.perf_counter() - begin)
     own = weights.max(axis=1, initial=0.0) < 1.0 - 1e-9
     states = _blending_states(problem, subspace, coordinates[own], weights[own])
     some = slice(None, None, PILOT_STEP)
     shapes = subspace.tau - problem.base + states.coordinates[some] @ subspace.basis.T
     energies = problem.system.evaluate(shapes, states.weights[some], threads=threads or 0)[0]
     states = replace(states, floor=0.01 * float(np.abs(energies).max(initial=0.0)))
-    count = default_blended_tets(subspace.dimension, stars=has_stars(problem))
     for usual in _growing(count, element_count(problem)):
         budget = Budget(tets, usual, FEWEST_BLENDS, TRAINED_BLENDS, BLEND_CANDIDATES)
         fit = fit_tets(states, budget, seed=seed, threads=threads)

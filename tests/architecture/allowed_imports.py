@@ -151,8 +151,8 @@ ALLOWED: dict[str, set[str]] = {
         "timeline",
     },
     "accurate": {
+        "cubature",
         "calibration",
-        "certificate",
         "displacements",
         "greedy",
         "interruptible",

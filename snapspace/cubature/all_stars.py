@@ -1,0 +1,54 @@
+"""Cubatures of all stars, which need no training: the energy is exact."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..problem import InterpolationProblem, PosingProblem
+from ..subspace import AffineSubspace
+from .blended_stars import BlendedStars
+from .cubature import Cubature
+from .elements import element_count, elements_of, has_stars
+
+#: All stars are taken where the usual number is at least this share of them. Frames then take at
+#: most twice as long, have no error of a cubature, and a model of the Centaur is made in 1.1
+#: instead of 6.2 s.
+SHARE = 0.5
+
+
+def takes_all_stars(
+    problem: PosingProblem | InterpolationProblem, wanted: int | None, usual: int
+) -> bool:
+    """Whether a cubature has all stars of a surface that is as rigid as possible.
+
+    wanted : the most stars that it may choose, or None for the usual number
+    """
+    if not has_stars(problem):
+        return False
+    available = element_count(problem)
+    return usual >= SHARE * available if wanted is None else wanted == available
+
+
+def posed_stars(problem: PosingProblem, subspace: AffineSubspace) -> Cubature:
+    """The elastic energy of a posed surface in a subspace."""
+    return Cubature.of_tets(problem, subspace, *_all_stars(problem))
+
+
+def blended_stars(problem: InterpolationProblem, subspace: AffineSubspace) -> BlendedStars:
+    """The blended energy of a surface in a subspace."""
+    return BlendedStars.of_tets(problem, subspace, *_all_stars(problem))
+
+
+def record_of(cubature: Cubature | BlendedStars, seconds: float) -> dict[str, Any]:
+    """For a model's provenance: as of a trained one, but there are no errors."""
+    return {"tets": len(cubature.tets), "trained_states": 0, "rows": 0, "seconds": seconds}
+
+
+def _all_stars(
+    problem: PosingProblem | InterpolationProblem,
+) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+    measures = elements_of(problem).measures
+    return np.arange(len(measures), dtype=np.int32), measures
