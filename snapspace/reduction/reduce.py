@@ -96,8 +96,8 @@ def reduce(
     tets : int, optional
         The most tets that a cubature may choose, r, or all tets if there are fewer. Default: 8 d
         for posing, beyond 1000 tets 6.5 d; 15 d for blending, but at most 1000. Of a shell they are
-        triangles and hinges, by default 12 d, but at most 1500; or stars, 8 d, and all where that
-        is half of them: their energy is exact, and nothing is trained.
+        triangles and hinges, by default 12 d, but at most 1500; or stars, 8 d. All stars are exact,
+        and nothing is trained: blends have them by default where 8 d is half of them.
     seed : int, default 0
         Seeds the random combinations of forces that a cubature is trained on.
     surface : EmbeddedSurface, optional
