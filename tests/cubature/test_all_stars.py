@@ -21,9 +21,9 @@ from snapspace import (
     solve_snapshots,
 )
 from snapspace.accurate.predicting import FEW_STARS, predicting_stars
-from snapspace.cubature import BlendedStars, element_count
+from snapspace.cubature import element_count
 from snapspace.cubature.all_stars import takes_all_stars
-from snapspace.reduction.full_energy import full_energy
+from snapspace.cubature.elements import elements_of
 
 from ..shells.sheets import sphere
 from ..shells.strips import WIDE, blended_strips, shell_model, strip_problem
@@ -58,29 +58,16 @@ def test_blends_take_all_if_the_usual_number_is_half_of_them(
     assert not takes_all_stars(strip_problem(material=StableNeoHookean()), None, 10**6)
 
 
-def test_the_energy_of_a_posed_surface_is_exact(posed: PosingModel) -> None:
-    model = reduced(posed, tets=element_count(posed.problem))
-    assert len(model.elastic.tets) == element_count(posed.problem)
-    assert "held_out" not in model.provenance["cubature"]
-    q = 0.1 * posed.coordinate_scale * np.random.default_rng(0).normal(size=posed.dimension)
-    value, gradient = full_energy(posed.problem, posed.subspace).value_and_gradient(q)
-    found, slope = model.elastic.value_and_gradient(q)
-    assert found == pytest.approx(value, rel=1e-4)  # rows are in single precision
-    np.testing.assert_allclose(slope, gradient, atol=1e-4 * np.abs(gradient).max())
-
-
-def test_the_energy_of_a_blend_is_exact(blended: InterpolationModel) -> None:
-    model = reduced(blended)
-    assert len(model.blends.tets) == element_count(blended.problem)
-    assert isinstance(model.blends, BlendedStars)
-    q = 0.1 * blended.coordinate_scale * np.random.default_rng(1).normal(size=blended.dimension)
-    w = np.array([0.2, 0.5, 0.3])
-    shape = blended.subspace.tau + blended.subspace.basis @ q
-    value, gradient = blended.problem.value_and_gradient(shape, w)
-    found, slope = model.blends.value_and_gradient(q, w)
-    wanted = blended.subspace.basis.T @ gradient
-    assert found == pytest.approx(value, rel=1e-4)
-    np.testing.assert_allclose(slope, wanted, atol=1e-4 * np.abs(wanted).max())
+def test_each_stands_for_its_area_and_nothing_is_trained(
+    posed: PosingModel, blended: InterpolationModel
+) -> None:
+    """Then the energy is that of all triangles, see tests/shells."""
+    models = reduced(posed, tets=element_count(posed.problem)), reduced(blended)
+    for model, elements in zip(models, (models[0].elastic, models[1].blends), strict=True):
+        measures = elements_of(model.problem).measures
+        np.testing.assert_array_equal(elements.tets, np.arange(len(measures)))
+        np.testing.assert_array_equal(elements.weights, measures)
+        assert "held_out" not in model.provenance["cubature"]
 
 
 def test_fewer_can_be_asked_for(posed: PosingModel) -> None:
