@@ -50,7 +50,7 @@ class ElementProbe(ResidualProbe):
         self.material = problem.element_material.of_tets(chosen)
         self.places = np.searchsorted(self.corners, sample.vertices).astype(np.int32)
         self.weights = sample.weights
-        self.pins = ProbePins.of_vertices(problem, self.corners, sampled)
+        self.pins = ProbePins.of_vertices(problem, self.corners, sample.vertices)
         modes = subspace.basis.reshape(n, 3, -1)[self.corners]
         self._core = core.element_probe(
             np.ascontiguousarray(subspace.tau.reshape(n, 3)[self.corners]),

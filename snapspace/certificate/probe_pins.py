@@ -32,7 +32,7 @@ class ProbePins:
         cls,
         problem: PosingProblem | InterpolationProblem,
         known: NDArray[np.integer[Any]],
-        sampled: NDArray[np.bool_],
+        sampled: NDArray[np.integer[Any]],
     ) -> ProbePins:
         """Finds them.
 
@@ -40,15 +40,15 @@ class ProbePins:
         ----------
         known : (c,)
             The vertices that the probe knows, ascending.
-        sampled : (n,)
-            Which vertices of the mesh are sampled; they are known.
+        sampled : (s,)
+            The sampled vertices, some of the known ones.
         """
         if not isinstance(problem, PosingProblem):
             none = np.zeros(0, np.int32)
             return cls(none, none, np.zeros(0), np.zeros((0, 3)))
         sizes = [len(handle.vertices) for handle in problem.handles]
         owners = np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
-        seen = sampled[problem.pinned]
+        seen = np.isin(problem.pinned, sampled)
         vertices, handles = problem.pinned[seen], owners[seen]
         return cls(
             pinned=np.searchsorted(known, vertices).astype(np.int32),

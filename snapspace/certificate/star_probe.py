@@ -47,9 +47,7 @@ class StarProbe(ResidualProbe):
         self.vertices, places = np.unique(sample.vertices, return_inverse=True)
         self.weights: FloatArray = np.zeros(len(self.vertices))
         np.add.at(self.weights, places, sample.weights)
-        sampled = np.zeros(len(problem.mesh.vertices), np.bool_)
-        sampled[self.vertices] = True
-        self.pins = ProbePins.of_vertices(problem, self.vertices, sampled)
+        self.pins = ProbePins.of_vertices(problem, self.vertices, self.vertices)
         poses = stars_of(problem)
         parts = [stars.parts(self.vertices) for stars in poses]
         self.stars, among = np.unique(parts[0].stars, return_inverse=True)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 import snapspace as ss
 from snapspace import InterpolationModel, PosingModel, ReducedModel
+from snapspace.certificate.probe_pins import ProbePins
 from snapspace.cubature import BlendedStars
 from snapspace.energy import ShellMaterial
 
@@ -25,6 +26,16 @@ def material(given: ss.Material | ShellMaterial) -> Material:
 def cubature(elastic: ss.Cubature) -> Cubature:
     arrays = address(elastic.rows), address(elastic.weights)
     return Cubature(len(elastic.tets), *arrays, material(elastic.material))
+
+
+def pin_arrays(pins: ProbePins) -> dict[str, NDArray[Any]]:
+    """Fields of both structs of probes."""
+    return {
+        "pinned": pins.pinned,
+        "pin_handles": pins.handles,
+        "pulls": pins.pulls,
+        "arms": np.ascontiguousarray(pins.arms),
+    }
 
 
 def stars(blends: BlendedStars) -> Stars:
@@ -78,6 +89,12 @@ class Entry:
     def call(self, name: str, *arguments: Any) -> int:
         code: int = getattr(self.library, f"snapspace_{name}")(self.session, *arguments)
         return code
+
+    def residual(self) -> float:
+        """Of the present shape, if a probe is set."""
+        found = ctypes.c_double(np.nan)
+        assert self.call("residual", self.reference(found)) == 0
+        return found.value
 
     def solve(self, method: int = 0, **changes: Any) -> Report:
         options = Options(

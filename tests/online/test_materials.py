@@ -15,7 +15,7 @@ from snapspace.certificate import ElementProbe, residual_probe
 from snapspace.material import MATERIALS
 
 from ..page.material_models import material_model, some_estimator
-from .entry import Entry, material
+from .entry import Entry, material, pin_arrays
 from .library import Material, Probe, address
 
 pytestmark = pytest.mark.skipif(
@@ -34,10 +34,7 @@ def c_probe(probe: ElementProbe, model: PosingModel | InterpolationModel) -> tup
         "tet_corners": probe.tets,
         "sampled": probe.places,
         "weights": probe.weights,
-        "pinned": probe.pins.pinned,
-        "pin_handles": probe.pins.handles,
-        "pulls": probe.pins.pulls,
-        "arms": np.ascontiguousarray(probe.pins.arms),
+        **pin_arrays(probe.pins),
     }
     arrays = {name: array.copy() for name, array in arrays.items()}
     sizes = {
@@ -56,12 +53,6 @@ def entry(library: ctypes.CDLL, cubature_model: PosingModel, request: Any) -> An
     made = Entry(library, material_model(cubature_model, request.param))
     yield made
     library.snapspace_destroy(made.session)
-
-
-def residual(entry: Entry) -> float:
-    found = ctypes.c_double(np.nan)
-    assert entry.call("residual", ctypes.byref(found)) == 0
-    return found.value
 
 
 def test_value_and_residual_are_those_of_python(entry: Entry) -> None:
@@ -84,9 +75,9 @@ def test_value_and_residual_are_those_of_python(entry: Entry) -> None:
         value = ctypes.c_double()
         assert entry.call("value", address(q), ctypes.byref(value)) == 0
         assert value.value == pytest.approx(model.value(q, offsets), rel=1e-9, abs=1e-12)
-        assert residual(entry) == pytest.approx(probe.norm(q, offsets), rel=1e-12, abs=1e-12)
+        assert entry.residual() == pytest.approx(probe.norm(q, offsets), rel=1e-12, abs=1e-12)
     assert entry.call("set_dimension", 5) == 0
-    assert residual(entry) == pytest.approx(probe.norm(q[:5], offsets), rel=1e-12)
+    assert entry.residual() == pytest.approx(probe.norm(q[:5], offsets), rel=1e-12)
     assert entry.library.allocations() == allocated, "only setting the probe allocates memory"
 
 
@@ -101,10 +92,10 @@ def test_a_blend_sums_the_residuals_of_its_poses(
     q = 0.05 * model.coordinate_scale * np.linspace(1, -1, model.dimension)
     assert entry.call("set_q", address(q)) == 0
     equal = np.full(3, 1 / 3)
-    assert residual(entry) == pytest.approx(probe.norm(q, equal), rel=1e-12), "weights at first"
+    assert entry.residual() == pytest.approx(probe.norm(q, equal), rel=1e-12), "weights at first"
     weights = np.array([1.2, -0.1, -0.1])
     assert entry.call("set_weights", address(weights)) == 0
-    assert residual(entry) == pytest.approx(probe.norm(q, weights), rel=1e-12)
+    assert entry.residual() == pytest.approx(probe.norm(q, weights), rel=1e-12)
     given.rests = 1
     assert entry.call("set_probe", ctypes.byref(given)) == BAD_ARGUMENT
     library.snapspace_destroy(entry.session)
@@ -116,7 +107,7 @@ def test_a_faulty_probe_is_refused_and_the_one_before_stays(entry: Entry) -> Non
     probe = residual_probe(model.problem, model.subspace, model.error_estimator.sample)
     given, arrays = c_probe(probe, model)
     assert entry.call("set_probe", ctypes.byref(given)) == 0
-    before = residual(entry)
+    before = entry.residual()
 
     def refused(**fields: Any) -> int:
         wrong, kept = c_probe(probe, model)
@@ -144,7 +135,7 @@ def test_a_faulty_probe_is_refused_and_the_one_before_stays(entry: Entry) -> Non
     assert refused(material=star) == BAD_ARGUMENT, "shells have a row per element"
     if probe.material.moduli.shape[1] == 2:
         assert refused(material=Material(kind, 1, address(moduli))) == NOT_FINITE
-    assert residual(entry) == before
+    assert entry.residual() == before
 
 
 def test_names_of_moduli_and_the_unit_of_energy(

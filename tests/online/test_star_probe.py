@@ -14,7 +14,7 @@ from snapspace import ARAP, InterpolationModel, PosingModel, ReducedModel
 from snapspace import certificate as ss
 
 from ..shells.strips import WIDE, blended_strips, shell_model
-from .entry import Entry, material
+from .entry import Entry, material, pin_arrays
 from .library import Material, Probe, StarProbe, address
 
 pytestmark = pytest.mark.skipif(
@@ -51,10 +51,7 @@ def given(probe: ss.StarProbe) -> tuple[StarProbe, dict[str, NDArray[Any]]]:
         "part_samples": probe.part_places,
         "part_vectors": probe.part_vectors,
         "weights": probe.weights,
-        "pinned": probe.pins.pinned,
-        "pin_handles": probe.pins.handles,
-        "pulls": probe.pins.pulls,
-        "arms": probe.pins.arms,
+        **pin_arrays(probe.pins),
     }
     arrays = {name: np.ascontiguousarray(array).copy() for name, array in arrays.items()}
     sizes = {
@@ -72,12 +69,6 @@ def set_probe(entry: Entry, probe: StarProbe | None) -> int:
     return entry.call("set_star_probe", None if probe is None else ctypes.byref(probe))
 
 
-def residual(entry: Entry) -> float:
-    found = ctypes.c_double(np.nan)
-    assert entry.call("residual", ctypes.byref(found)) == 0
-    return found.value
-
-
 def some_shape(model: ReducedModel) -> NDArray[np.float64]:
     return np.asarray(0.05 * model.coordinate_scale * np.linspace(1, -1, model.dimension))
 
@@ -93,9 +84,9 @@ def test_residuals_of_handles_are_those_of_python(library: ctypes.CDLL, posed: P
     allocated = library.allocations()
     offsets = np.ascontiguousarray(posed.problem.offsets(0.4 * posed.problem.domain.half_widths))
     assert entry.call("set_offsets", address(offsets)) == entry.call("set_q", address(q)) == 0
-    assert residual(entry) == pytest.approx(probe.norm(q, offsets), rel=1e-12)
+    assert entry.residual() == pytest.approx(probe.norm(q, offsets), rel=1e-12)
     assert entry.call("set_dimension", 5) == 0
-    assert residual(entry) == pytest.approx(probe.norm(q[:5], offsets), rel=1e-12)
+    assert entry.residual() == pytest.approx(probe.norm(q[:5], offsets), rel=1e-12)
     assert library.allocations() == allocated, "only setting the probe allocates memory"
     library.snapspace_destroy(entry.session)
 
@@ -107,10 +98,10 @@ def test_residuals_of_blends_are_those_of_python(
     made, kept = given(probe)
     assert set_probe(entry, made) == 0 and kept
     assert entry.call("set_q", address(q)) == 0
-    assert residual(entry) == pytest.approx(probe.norm(q, np.full(3, 1 / 3)), rel=1e-12)
+    assert entry.residual() == pytest.approx(probe.norm(q, np.full(3, 1 / 3)), rel=1e-12)
     weights = np.array([1.2, 0.0, -0.2])
     assert entry.call("set_weights", address(weights)) == 0
-    assert residual(entry) == pytest.approx(probe.norm(q, weights), rel=1e-12)
+    assert entry.residual() == pytest.approx(probe.norm(q, weights), rel=1e-12)
     made.rests = 1
     assert set_probe(entry, made) == BAD_ARGUMENT
     library.snapspace_destroy(entry.session)
@@ -122,7 +113,7 @@ def test_a_faulty_probe_is_refused_and_the_one_before_stays(
     entry, probe = Entry(library, posed), probe_of(posed)
     made, arrays = given(probe)
     assert set_probe(entry, made) == 0
-    before = residual(entry)
+    before = entry.residual()
 
     def refused(**fields: Any) -> int:
         wrong, kept = given(probe)
@@ -155,5 +146,5 @@ def test_a_faulty_probe_is_refused_and_the_one_before_stays(
     tets.material = Material(b"shell-arap", 1, address(np.ones((1, 12))))
     tets.sampled, tets.weights = corners, points
     assert entry.call("set_probe", ctypes.byref(tets)) == BAD_ARGUMENT, "stars are no tets"
-    assert residual(entry) == before
+    assert entry.residual() == before
     library.snapspace_destroy(entry.session)
