@@ -115,6 +115,6 @@ def shell_option(command: Command) -> Command:
         type=click.FloatRange(min=0, min_open=True),
         metavar="THICKNESS",
         help="Take a surface as a thin shell of this thickness, in its unit of length, instead of "
-        "filling it. It may be open. The thickness counts where a material is given: the usual one "
-        "is as rigid as possible.",
+        "filling it. It may be open. It bends by its thickness if it is of another material than "
+        "the usual one, arap, which is as rigid as possible.",
     )(command)
