@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "material/shell_arap.h"
-#include "memory/prefetch.h"
 
 namespace snapspace {
 
@@ -23,7 +22,7 @@ StarBlend::StarBlend(const std::vector<const VertexStars*>& poses,
   star_numbers_.reserve(poses_ * (kHeader * stars + kPerCorner * (corners_.size() - stars)));
   for (int star = 0; star < stars; ++star) {
     centers_.push_back(poses[0]->center(star));
-    for (std::size_t k = 0; k < poses_; ++k) append_star(star, *poses[k], offsets[k].data());
+    append_star(star, poses, offsets);
   }
 }
 
@@ -47,107 +46,156 @@ void StarBlend::append_vertex(int vertex, const VertexStars& pose, const double*
   }
 }
 
-void StarBlend::append_star(int star, const VertexStars& pose, const double* offset) {
-  const double* const own = offset + 3 * static_cast<std::size_t>(pose.center(star));
-  const std::size_t begin = star_numbers_.size();
-  star_numbers_.resize(begin + numbers_of_star(star));
-  double* const header = star_numbers_.data() + begin;
-  std::copy_n(&pose.frames[9 * static_cast<std::size_t>(star)], 9, header + kFrame);
-  std::copy_n(header + kFrame, 9, header + kMap);
-  header[kWeight] = pose.weights[star];
-  double* next = header + kHeader;
-  for (int c = first_corner_[star] + 1; c < first_corner_[star + 1]; ++c, next += kPerCorner) {
-    std::copy_n(&pose.gradients[3 * static_cast<std::size_t>(c)], 3, next);
-    for (int r = 0; r < 3; ++r) {
-      const double edge = offset[3 * static_cast<std::size_t>(corners_[c]) + r] - own[r];
-      for (int s = 0; s < 3; ++s) header[kMap + 3 * r + s] += edge * next[s];
+void StarBlend::append_star(int star, const std::vector<const VertexStars*>& poses,
+                            const std::vector<std::vector<double>>& offsets) {
+  const int first = first_corner_[star] + 1, last = first_corner_[star + 1];
+  for (std::size_t k = 0; k < poses_; ++k) {
+    const VertexStars& pose = *poses[k];
+    const double* const own = offsets[k].data() + 3 * static_cast<std::size_t>(pose.center(star));
+    double header[kHeader];
+    std::copy_n(&pose.frames[9 * static_cast<std::size_t>(star)], 9, header + kFrame);
+    std::copy_n(header + kFrame, 9, header + kMap);
+    header[kWeight] = pose.weights[star];
+    for (int c = first; c < last; ++c)
+      for (int r = 0; r < 3; ++r) {
+        const double edge = offsets[k][3 * static_cast<std::size_t>(corners_[c]) + r] - own[r];
+        for (int s = 0; s < 3; ++s)
+          header[kMap + 3 * r + s] += edge * pose.gradients[3 * static_cast<std::size_t>(c) + s];
+      }
+    star_numbers_.insert(star_numbers_.end(), header, header + kHeader);
+  }
+  for (int begin = first; begin < last; begin += kTile) {
+    const auto count = static_cast<std::size_t>(std::min(last - begin, int{kTile}));
+    for (const VertexStars* const pose : poses) {
+      const double* const shares = &pose->gradients[3 * static_cast<std::size_t>(begin)];
+      star_numbers_.insert(star_numbers_.end(), shares, shares + kPerCorner * count);
     }
   }
 }
 
 /// The sum over the poses for one star: u and `gradient` are those of all vertices.
+///
+/// Large stars have more corners than fit into the fastest memory for all lanes. So their corners
+/// are visited in tiles, each for all poses, first for the maps F and then for the forces.
 template <class Real>
 class StarBlend::StarSum {
  public:
   using T = typename ScalarOf<Real>::type;
 
-  /// Begins with a star.
-  void begin(const StarBlend& blend, int star, const Real* u) {
+  /// Finds the maps F of a star in some poses.
+  void find_maps(const StarBlend& blend, int star, const std::vector<int>& poses, const Real* u) {
     center_ = static_cast<std::size_t>(blend.centers_[star]);
     count_ = blend.ring(star);
     corners_ = blend.corners_.data() + blend.first_corner_[star] + 1;
-    stride_ = blend.numbers_of_star(star);
-    first_ = blend.begin_of_star(star);
-    ahead_ = 2 * blend.poses_ * stride_;
-    const Real* const own = u + 3 * center_;
-    edges_.resize(3 * static_cast<std::size_t>(count_));
-    forces_.assign(edges_.size(), Real(T(0)));
-    for (int j = 0; j < count_; ++j)
-      for (int r = 0; r < 3; ++r)
-        edges_[3 * j + r] = u[3 * static_cast<std::size_t>(corners_[j]) + r] - own[r];
+    headers_ = blend.begin_of_star(star);
+    shares_ = headers_ + kHeader * blend.poses_;
+    all_poses_ = static_cast<int>(blend.poses_);
     sum_ = Real(T(0));
+    maps_.resize(9 * poses.size());
+    Real* map = maps_.data();
+    for (const int pose : poses)
+      for (int e = 0; e < 9; ++e) *map++ = Real(header(pose)[kMap + e]);
+    for (int begin = 0; begin < count_; begin += kTile) add_tile_to_maps(begin, poses, u);
   }
 
-  /// F L^T - I of the star in a pose; F is kept until `add`.
-  void find_change(int pose, Real change[3][3]) {
-    numbers_ = first_ + stride_ * static_cast<std::size_t>(pose);
-    // the same pose two stars further on: hardware does not see that this is one stream
-    prefetch(numbers_ + ahead_, stride_);
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) map_[r][c] = Real(numbers_[kMap + 3 * r + c]);
-    const double* next = numbers_ + kHeader;
-    for (int j = 0; j < count_; ++j, next += kPerCorner)
-      for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) map_[r][c] += edges_[3 * j + r] * Real(next[c]);
-    const double* const L = numbers_ + kFrame;
+  /// F L^T - I of the i-th of these poses.
+  void find_change(int i, int pose, Real change[3][3]) const {
+    const Real* const map = maps_.data() + 9 * i;
+    const double* const L = header(pose) + kFrame;
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) {
-        Real product = rounded(map_[r][0] * Real(L[3 * c]));
-        for (int s = 1; s < 3; ++s) product += map_[r][s] * Real(L[3 * c + s]);
+        Real product = rounded(map[3 * r] * Real(L[3 * c]));
+        for (int s = 1; s < 3; ++s) product += map[3 * r + s] * Real(L[3 * c + s]);
         change[r][c] = r == c ? product - Real(T(1)) : product;
       }
   }
 
-  /// Adds the pose with W = R - I.
-  void add(const Real& pose_weight, const Real W[3][3]) {
-    const double* const L = numbers_ + kFrame;
-    const Real weight = pose_weight * Real(numbers_[kWeight]);
-    Real stress[3][3];
+  /// Adds the i-th of these poses with W = R - I. Its stress replaces its F.
+  void turn(int i, int pose, const Real& pose_weight, const Real W[3][3]) {
+    Real* const map = maps_.data() + 9 * i;
+    const double* const L = header(pose) + kFrame;
+    const Real weight = pose_weight * Real(header(pose)[kWeight]);
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) {
         Real moved = rounded(W[r][0] * Real(L[c]));
         for (int s = 1; s < 3; ++s) moved += W[r][s] * Real(L[3 * s + c]);
-        const Real change = map_[r][c] - Real(L[3 * r + c]);
-        stress[r][c] = weight * moved;
-        sum_ += stress[r][c] * (moved - change - change);
-        stress[r][c] += stress[r][c];
+        const Real change = map[3 * r + c] - Real(L[3 * r + c]);
+        const Real stress = weight * moved;
+        sum_ += stress * (moved - change - change);
+        map[3 * r + c] = stress + stress;
       }
-    const double* next = numbers_ + kHeader;
-    for (int j = 0; j < count_; ++j, next += kPerCorner)
-      for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) forces_[3 * j + r] += stress[r][c] * Real(next[c]);
   }
 
-  /// Adds the gradient of all poses, and returns their energy.
-  Real finish(Real* gradient) {
+  /// Adds the gradient of all these poses, and returns their energy.
+  Real finish(const std::vector<int>& poses, Real* gradient) {
     Real total[3] = {Real(T(0)), Real(T(0)), Real(T(0))};
-    for (int j = 0; j < count_; ++j)
-      for (int r = 0; r < 3; ++r) {
-        gradient[3 * static_cast<std::size_t>(corners_[j]) + r] -= forces_[3 * j + r];
-        total[r] += forces_[3 * j + r];
-      }
+    for (int begin = 0; begin < count_; begin += kTile) {
+      const int count = find_tile_of_forces(begin, poses);
+      for (int j = 0; j < count; ++j)
+        for (int r = 0; r < 3; ++r) {
+          gradient[3 * static_cast<std::size_t>(corners_[begin + j]) + r] -= tile_[j][r];
+          total[r] += tile_[j][r];
+        }
+    }
     for (int r = 0; r < 3; ++r) gradient[3 * center_ + r] += total[r];
     return sum_;
   }
 
  private:
+  [[nodiscard]] const double* header(int pose) const { return headers_ + kHeader * pose; }
+  [[nodiscard]] const double* shares(int pose, int begin, int count) const {
+    return shares_ + kPerCorner * (all_poses_ * begin + pose * count);
+  }
+  [[nodiscard]] int tile_size(int begin) const { return std::min(count_ - begin, int{kTile}); }
+
+  void add_tile_to_maps(int begin, const std::vector<int>& poses, const Real* u) {
+    const int count = tile_size(begin);
+    const Real* const own = u + 3 * center_;
+    for (int j = 0; j < count; ++j)
+      for (int r = 0; r < 3; ++r)
+        tile_[j][r] = u[3 * static_cast<std::size_t>(corners_[begin + j]) + r] - own[r];
+    Real* in_memory = maps_.data();
+    for (const int pose : poses) {
+      Real map[9];  // in registers
+      for (int e = 0; e < 9; ++e) map[e] = in_memory[e];
+      const double* next = shares(pose, begin, count);
+      for (int j = 0; j < count; ++j, next += kPerCorner)
+        for (int r = 0; r < 3; ++r)
+          for (int c = 0; c < 3; ++c) map[3 * r + c] += tile_[j][r] * Real(next[c]);
+      for (int e = 0; e < 9; ++e) *in_memory++ = map[e];
+    }
+  }
+
+  /// Forces at the corners of a tile, and how many these are.
+  int find_tile_of_forces(int begin, const std::vector<int>& poses) {
+    const int count = tile_size(begin);
+    for (int j = 0; j < count; ++j)
+      for (int r = 0; r < 3; ++r) tile_[j][r] = Real(T(0));
+    const Real* in_memory = maps_.data();
+    for (const int pose : poses) {
+      Real stress[9];
+      for (int e = 0; e < 9; ++e) stress[e] = *in_memory++;
+      const double* next = shares(pose, begin, count);
+      for (int j = 0; j < count; ++j, next += kPerCorner) {
+        // in registers: for all that the compiler knows, the tile may overlap the shares
+        const Real share[3] = {Real(next[0]), Real(next[1]), Real(next[2])};
+        for (int r = 0; r < 3; ++r) {
+          Real force = tile_[j][r];
+          for (int c = 0; c < 3; ++c) force += stress[3 * r + c] * share[c];
+          tile_[j][r] = force;
+        }
+      }
+    }
+    return count;
+  }
+
   std::size_t center_ = 0;
-  int count_ = 0;
+  int count_ = 0, all_poses_ = 0;
   const std::int32_t* corners_ = nullptr;  // besides the center
-  const double *first_ = nullptr, *numbers_ = nullptr;
-  std::size_t stride_ = 0, ahead_ = 0;
-  std::vector<Real> edges_, forces_;
-  Real sum_, map_[3][3];
+  const double *headers_ = nullptr, *shares_ = nullptr;
+  std::vector<Real> maps_;
+  Real tile_[kTile][3];  // edges from the center, or forces
+  Real sum_;
 };
 
 template <class Real>
@@ -209,32 +257,33 @@ Sum<Real> StarBlend::add_value_and_gradient(const Real* weights, int begin, int 
         used.push_back(k);
         break;
       }
+  const int count = static_cast<int>(used.size());
   StarSum<Real> one, other;
   Real change[3][3], other_change[3][3], turn[3][3], other_turn[3][3];
   Sum<Real> energy = widened(add_vertices(weights, used, begin, end, u, gradient));
   const int last = first_star(end);
   int star = first_star(begin);
   for (; star + 1 < last; star += 2) {
-    one.begin(*this, star, u);
-    other.begin(*this, star + 1, u);
-    for (const int k : used) {
-      one.find_change(k, change);
-      other.find_change(k, other_change);
+    one.find_maps(*this, star, used, u);
+    other.find_maps(*this, star + 1, used, u);
+    for (int i = 0; i < count; ++i) {
+      one.find_change(i, used[i], change);
+      other.find_change(i, used[i], other_change);
       turn_both(change, other_change, turn, other_turn);
-      one.add(weights[k], turn);
-      other.add(weights[k], other_turn);
+      one.turn(i, used[i], weights[used[i]], turn);
+      other.turn(i, used[i], weights[used[i]], other_turn);
     }
-    energy += widened(one.finish(gradient));
-    energy += widened(other.finish(gradient));
+    energy += widened(one.finish(used, gradient));
+    energy += widened(other.finish(used, gradient));
   }
   if (star == last) return energy;
-  one.begin(*this, star, u);
-  for (const int k : used) {
-    one.find_change(k, change);
+  one.find_maps(*this, star, used, u);
+  for (int i = 0; i < count; ++i) {
+    one.find_change(i, used[i], change);
     turn_of(change, turn);
-    one.add(weights[k], turn);
+    one.turn(i, used[i], weights[used[i]], turn);
   }
-  energy += widened(one.finish(gradient));
+  energy += widened(one.finish(used, gradient));
   return energy;
 }
 
