@@ -32,6 +32,8 @@ Model = TypeVar("Model", bound=PosingModel | InterpolationModel)
 SAMPLES = 50
 #: Number of frames whose residuals choose the sampled vertices. They need no full solution.
 TYPICAL_FRAMES = 32
+#: Tolerance of these frames. Their residuals are forces that the subspace cannot balance.
+TYPICAL_TOLERANCE = 1e-4
 #: Distances and indicators below this share of the largest one are rounding.
 ROUNDING = 1e-12
 
@@ -161,7 +163,8 @@ def _parameters(domain: Domain, count: int, *, seed: int, stream: int) -> FloatA
 def _sample(
     model: PosingModel | InterpolationModel, parameters: FloatArray, *, threads: int | None
 ) -> ResidualSample:
-    problem, coordinates = model.problem, solved_coordinates(model, parameters)
+    problem = model.problem
+    coordinates = solved_coordinates(model, parameters, tolerance=TYPICAL_TOLERANCE)
     frames = model.subspace.shapes(coordinates) - problem.base
     sizes = (coordinates**2).sum(axis=1)
     inputs = problem.inputs(parameters)

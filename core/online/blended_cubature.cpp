@@ -9,6 +9,7 @@
 #include "material/pose_blend.h"
 #include "material/principal_hessian.h"
 #include "material/shell_rest.h"
+#include "online/block_hessians.h"
 #include "online/tet_density.h"
 
 namespace snapspace::online {
@@ -31,6 +32,7 @@ void gradient_between(const RestTet& rest, const double* from, const double* to,
 BlendedCubature::BlendedCubature(int dimension, int tets, const float* rows, const double* weights,
                                  const TetMaterial& material, const PoseTets& poses)
     : rows_(dimension, tets, rows),
+      second_half_(static_cast<std::size_t>(dimension) * dimension),
       kind_(material.kind),
       poses_(poses.poses),
       moduli_count_(material_moduli(material.kind)),
@@ -193,21 +195,18 @@ double BlendedCubature::derivatives(const double* q, double* gradient, double* h
   const double value = value_and_gradient(q, gradient);
   const auto d = static_cast<std::size_t>(dimension());
   std::fill_n(hessian, d * d, 0.0);
-  for (int b = 0; b < rows_.blocks(); ++b) {
-    Tets curvature[9][9];
-    block_curvatures(b, curvature);
-    rows_.add_curvatures(b, curvature, hessian);
-  }
+  const auto curvatures = [this](int block, Tets C[9][9]) {
+    block_curvatures(block, C);
+    return true;
+  };
+  add_block_hessians(rows_, half_runner_, second_half_, curvatures, hessian);
   return value;
 }
 
 void BlendedCubature::curvatures(const double* q, float* hessians) {
   rows_.begin(q);
-  for (int b = 0; b < rows_.blocks(); ++b) {
-    Tets curvature[9][9];
-    block_curvatures(b, curvature);
-    hessians = store_tets(curvature, rows_.lanes(b), hessians);
-  }
+  store_block_curvatures(
+      rows_, [this](int block, Tets C[9][9]) { block_curvatures(block, C); }, hessians);
 }
 
 }  // namespace snapspace::online

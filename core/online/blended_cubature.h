@@ -66,6 +66,7 @@ class BlendedCubature {
 
   TetRows rows_;
   HalfRunner* half_runner_ = nullptr;
+  std::vector<double> second_half_;  // of the blocks: their Hessian
   int kind_, poses_;
   bool collapses_;
   int numbers_count_, moduli_count_;   // per tet and pose

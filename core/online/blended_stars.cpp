@@ -3,12 +3,14 @@
 #include <algorithm>
 
 #include "material/element_hessian.h"
+#include "online/block_hessians.h"
 #include "online/tet_density.h"
 
 namespace snapspace::online {
 
 BlendedStars::BlendedStars(int dimension, const PoseStars& stars)
     : rows_(dimension, stars.poses * stars.stars, stars.rows),
+      second_half_(static_cast<std::size_t>(dimension) * dimension),
       kind_(stars.material.kind),
       moduli_count_(material_moduli(stars.material.kind)),
       weights_(stars.poses, 0.0),
@@ -105,22 +107,19 @@ double BlendedStars::derivatives(const double* q, double* gradient, double* hess
   const auto d = static_cast<std::size_t>(dimension()), stride = form_.size() / (capacity() + 1);
   for (std::size_t i = 0; i < d; ++i)
     for (std::size_t j = 0; j < d; ++j) hessian[i * d + j] = 2.0 * form_[i * stride + j];
-  for (int b = 0; b < rows_.blocks(); ++b) {
-    if (idle_[b]) continue;
-    Tets curvature[9][9];
-    block_curvatures(b, curvature);
-    rows_.add_curvatures(b, curvature, hessian);
-  }
+  const auto curvatures = [this](int block, Tets C[9][9]) {
+    if (idle_[block]) return false;
+    block_curvatures(block, C);
+    return true;
+  };
+  add_block_hessians(rows_, half_runner_, second_half_, curvatures, hessian);
   return value;
 }
 
 void BlendedStars::curvatures(const double* q, float* hessians) {
   rows_.begin(q);
-  for (int b = 0; b < rows_.blocks(); ++b) {
-    Tets curvature[9][9];
-    block_curvatures(b, curvature);
-    hessians = store_tets(curvature, rows_.lanes(b), hessians);
-  }
+  store_block_curvatures(
+      rows_, [this](int block, Tets C[9][9]) { block_curvatures(block, C); }, hessians);
 }
 
 }  // namespace snapspace::online

@@ -64,6 +64,7 @@ class BlendedStars {
 
   TetRows rows_;
   HalfRunner* half_runner_ = nullptr;
+  std::vector<double> second_half_;  // of the blocks: their Hessian
   int kind_, moduli_count_;
   std::vector<double> weights_;      // of the poses
   std::vector<double> forms_;        // of the poses

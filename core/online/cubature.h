@@ -51,6 +51,7 @@ class Cubature {
 
   TetRows rows_;
   HalfRunner* half_runner_ = nullptr;
+  std::vector<double> second_half_;  // of the blocks: their Hessian
   int kind_, moduli_count_;
   std::vector<Tets> moduli_;  // block, modulus: times weight; zero for lanes without a tet
 };

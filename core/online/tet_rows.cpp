@@ -84,24 +84,32 @@ void TetRows::end(double* gradient) const {
     gradient[mode] = lane_sum(sums_[mode] + sums_[2 * pairs_ + mode]);
 }
 
-TetRows::Tets TetRows::entry(const Tets* words, int mode, int e) {
-  const Tets word = words[9 * (mode / 2) + e];
-  return mode % 2 == 0 ? word : second_numbers(word);
-}
-
 void TetRows::add_curvatures(int block, const Tets curvature[9][9], double* hessian) const {
-  const Tets* own = words(block);
-  Tets change[9];
-  for (int i = 0; i < dimension_; ++i) {
+  // Modes lie in pairs: a word that is read serves four sums.
+  const Tets* const own = words(block);
+  for (int pair = 0; pair < pairs_; ++pair) {
+    Tets change[2][9];
     for (int f = 0; f < 9; ++f) {
-      change[f] = Tets(0.0);
-      for (int e = 0; e < 9; ++e) change[f] += curvature[f][e] * entry(own, i, e);
+      change[0][f] = change[1][f] = Tets(0.0);
+      for (int e = 0; e < 9; ++e) {
+        change[0][f] += curvature[f][e] * own[9 * pair + e];
+        change[1][f] += curvature[f][e] * second_numbers(own[9 * pair + e]);
+      }
     }
-    double* row = hessian + static_cast<std::size_t>(i) * dimension_;
-    for (int j = 0; j <= i; ++j) {
-      Tets sum(0.0);
-      for (int e = 0; e < 9; ++e) sum += entry(own, j, e) * change[e];
-      row[j] += lane_sum(sum);
+    for (int other = 0; other <= pair; ++other) {
+      Tets sums[2][2] = {{Tets(0.0), Tets(0.0)}, {Tets(0.0), Tets(0.0)}};
+      for (int e = 0; e < 9; ++e) {
+        const Tets first = own[9 * other + e], second = second_numbers(first);
+        for (int i = 0; i < 2; ++i) {
+          sums[i][0] += change[i][e] * first;
+          sums[i][1] += change[i][e] * second;
+        }
+      }
+      for (int i = 0; i < 2 && 2 * pair + i < dimension_; ++i) {
+        double* const row = hessian + static_cast<std::size_t>(2 * pair + i) * dimension_;
+        for (int j = 0; j < 2 && 2 * other + j <= 2 * pair + i; ++j)
+          row[2 * other + j] += lane_sum(sums[i][j]);
+      }
     }
   }
 }

@@ -59,9 +59,6 @@ class TetRows {
   [[nodiscard]] const Tets* words(int block) const {
     return words_.data() + static_cast<std::size_t>(block) * 9 * ((capacity_ + 1) / 2);
   }
-  /// One mode's displacement gradients.
-  [[nodiscard]] static Tets entry(const Tets* words, int mode, int e);
-
   int capacity_, dimension_;
   int pairs_;  // of modes, for the current dimension
   int tets_;
@@ -70,14 +67,6 @@ class TetRows {
   std::vector<double> coordinates_;  // q, and a zero if d is odd
   std::vector<Tets> sums_;           // of forces, half by half
 };
-
-/// Writes the matrices (9 x 9) of the first lanes one after the other; returns the end.
-inline float* store_tets(const TetRows::Tets matrices[9][9], int lanes, float* to) {
-  for (int lane = 0; lane < lanes; ++lane)
-    for (int f = 0; f < 9; ++f)
-      for (int e = 0; e < 9; ++e) *to++ = static_cast<float>(matrices[f][e][lane]);
-  return to;
-}
 
 inline double lane_sum(const TetRows::Tets& pack) {
   double sum = 0.0;

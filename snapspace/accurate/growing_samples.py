@@ -5,12 +5,14 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..displacements import SnapshotGram
 from ..greedy import batch_checkpoint
+from ..interruptible import begin_abandonable
 from ..problem import InterpolationProblem, PosingProblem, solutions_beyond_tau
 from ..reduction import InterpolationModel, PosingModel
 from ..sampling import Method, sample
@@ -57,7 +59,10 @@ class GrowingSamples:
         judges_too: bool = False,
     ) -> None:
         self.problem = problem
-        self.parameters = sample(problem.domain, most, method=method, seed=seed)
+        # SciPy's module of Sobol points takes a second to import; meanwhile the problem is prepared
+        self._sampled = begin_abandonable(
+            lambda: sample(problem.domain, most, method=method, seed=seed)
+        )
         self._pilot, self._slow, self._judges_too = pilot, slow, judges_too
         self._judges = range(first, first + held_out)
         self._snapshots: Snapshots | None = None
@@ -65,6 +70,12 @@ class GrowingSamples:
         self._given: Snapshots | None = None  # shapes that count for a basis
         self._gram = SnapshotGram.of(problem)
         self.seconds_a_sample = 0.0  # of the last ones
+
+    @cached_property
+    def parameters(self) -> FloatArray:
+        """Parameters of the whole sequence, (most, p)."""
+        _ = self.problem.system, self.problem.tau  # what every solve needs, beside the sampling
+        return self._sampled()
 
     @property
     def are_predicted(self) -> bool:

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from typing import TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,6 +15,7 @@ from ..problem import InterpolationProblem
 from ..subspace import AffineSubspace
 
 FloatArray = NDArray[np.float64]
+Result = TypeVar("Result")
 
 
 class StarPoses:
@@ -36,8 +42,11 @@ class StarPoses:
         """The nine numbers of modes (3n, d) in some stars (r,) and each pose, (r, 9 poses, d)."""
         modes = np.ascontiguousarray(basis)
         rows = np.empty((len(which), 9 * len(self.stars), modes.shape[1]), np.float32)
-        for k, one in enumerate(self.stars):
-            rows[:, 9 * k : 9 * k + 9] = one.gradients(modes, which)
+
+        def fill(k: int) -> None:
+            rows[:, 9 * k : 9 * k + 9] = self.stars[k].gradients(modes, which)
+
+        self._for_poses(fill)
         return rows
 
     def material_of(self, which: NDArray[np.int32]) -> ShellMaterial:
@@ -59,6 +68,9 @@ class StarPoses:
         """The quadratic part of each energy: (q, 1)^T M (q, 1), (poses, d + 1, d + 1)."""
         modes = np.ascontiguousarray(subspace.basis)
         shapes = subspace.tau - self._shapes
-        return np.stack(
-            [one.remainder_beside(modes, u) for one, u in zip(self.stars, shapes, strict=True)]
-        )
+        return np.stack(self._for_poses(lambda k: self.stars[k].remainder_beside(modes, shapes[k])))
+
+    def _for_poses(self, work: Callable[[int], Result]) -> list[Result]:
+        """Results of work(pose), on all processors: SciPy's sparse products take one each."""
+        with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+            return list(pool.map(work, range(len(self.stars))))

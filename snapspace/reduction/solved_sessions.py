@@ -13,22 +13,29 @@ from .reduced_model import ReducedModel
 FloatArray = NDArray[np.float64]
 
 
-def solved_sessions(model: ReducedModel, parameters: FloatArray) -> Iterator[Any]:
+def solved_sessions(
+    model: ReducedModel, parameters: FloatArray, *, tolerance: float | None = None
+) -> Iterator[Any]:
     """A session of the model, solved for each of the parameters (k, p) in turn.
 
     Each solve starts from tau, so that a solution does not depend on the others.
+
+    tolerance : as for `Session`
     """
-    session = model.session()
+    session = model.session(tolerance=tolerance)
     for w in parameters:
         session.reset()
         session.set_parameters(w)
         yield session
 
 
-def solved_coordinates(model: ReducedModel, parameters: FloatArray) -> FloatArray:
+def solved_coordinates(
+    model: ReducedModel, parameters: FloatArray, *, tolerance: float | None = None
+) -> FloatArray:
     """The coordinates (k, d) of these solutions."""
     coordinates = np.empty((len(parameters), model.dimension))
-    for q, session in zip(coordinates, solved_sessions(model, parameters), strict=True):
+    sessions = solved_sessions(model, parameters, tolerance=tolerance)
+    for q, session in zip(coordinates, sessions, strict=True):
         q[:] = session.q
     return coordinates
 

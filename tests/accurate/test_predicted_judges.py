@@ -76,13 +76,14 @@ def predicted(problem: InterpolationProblem) -> Predicted:
 
 
 def test_the_ratio_is_that_of_errors_and_projections(predicted: Predicted) -> None:
-    model, samples = predicted.model, predicted.samples
-    assert model is not None
+    samples = predicted.samples
+    assert predicted.model is not None
+    # the projection is a root of a difference, which with all dimensions is mostly rounding
+    model = predicted.model.leading(6)
     error = unseen_errors(model, samples.unseen).mean()
     projection = samples.projection_errors_onto(model.subspace).mean()
     assert measured_ratio(model, samples.unseen, BLENDS) == pytest.approx(
-        error / projection,
-        rel=0.1,  # this projection is a root of a small difference
+        error / projection, rel=1e-3
     )
 
 

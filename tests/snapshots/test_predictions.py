@@ -24,7 +24,8 @@ from snapspace import (
 )
 from snapspace import _core as core
 from snapspace.mesh import mass_norm
-from snapspace.session.predictions import STIFFER
+from snapspace.reduction import reduced_solutions
+from snapspace.session.predictions import STIFFER, TOLERANCE
 from snapspace.snapshots import positive_inverse
 
 from ..shells.sheets import rolled, sheet
@@ -70,7 +71,7 @@ def mean_evaluations(snapshots: Snapshots) -> float:
 def test_predictions_are_the_models_solutions_and_stiffer_hessians(
     model: InterpolationModel, wanted: FloatArray, predictions: Predictions
 ) -> None:
-    session, inverses = model.session(), predictions.inverses
+    session, inverses = model.session(tolerance=TOLERANCE), predictions.inverses
     assert inverses is not None
     for w, displacement, inverse in zip(wanted, predictions.displacements, inverses, strict=True):
         session.reset()
@@ -172,7 +173,10 @@ def test_without_hessians_there_are_only_starts(
 ) -> None:
     starts = predicted_solutions(model, wanted, hessians=False)
     assert starts.basis is None and starts.inverses is None
-    assert np.array_equal(starts.displacements, predictions.displacements)
+    assert np.array_equal(starts.displacements, reduced_solutions(model, wanted))
+    # those with Hessians are solved to a looser tolerance, as near as samples need
+    distances = starts.displacements - predictions.displacements
+    assert np.linalg.norm(distances) < 0.02 * np.linalg.norm(starts.displacements)
 
 
 def test_inverses_are_positive_definite_whatever_the_hessian_is() -> None:
