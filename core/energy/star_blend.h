@@ -37,7 +37,7 @@ class StarBlend {
   template <class Real>
   class StarSum;
   /// Numbers of a star in a pose: L and the F of pose 0, row by row, and its weight. After those of
-  /// all poses follows the share of F of every corner besides the center, three numbers: tile by
+  /// all poses come the shares of F of the corners besides the center, three numbers each: tile by
   /// tile, pose by pose.
   enum StarPlaces { kFrame = 0, kMap = 9, kWeight = 18, kHeader = 19 };
   static constexpr int kPerCorner = 3;

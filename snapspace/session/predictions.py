@@ -28,7 +28,8 @@ def predicted_solutions(
 ) -> Predictions:
     """The model's solutions for parameters (k, p), for `solve_snapshots`.
 
-    A prediction does not depend on the others.
+    A prediction does not depend on the others. With Hessians it has a tolerance of 1e-4, and
+    without them that of sessions.
 
     Parameters
     ----------

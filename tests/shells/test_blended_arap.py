@@ -36,18 +36,22 @@ SQUARE = irregular(25, thickness=0.04)
 WEIGHTS = np.array([0.2, 0.5, 0.3])
 
 
-@pytest.fixture(params=[0.0, 0.15], ids=["rings", "radius"], scope="module")
-def problem(request: pytest.FixtureRequest) -> InterpolationProblem:
+def blended(flat: ShellMesh, radius: float) -> InterpolationProblem:
     """A sheet: flat, rolled up and turned, and stretched and bent the other way."""
     turn = Rotation.from_rotvec([0.3, 1.0, -0.5]).as_matrix()
     shapes = [
-        SQUARE.vertices,
-        rolled(SQUARE.vertices, 2.0, 0.4).reshape(-1, 3) @ turn.T,
-        rolled(SQUARE.vertices * [1.2, 0.9, 1.0], -1.0, 1.3).reshape(-1, 3),
+        flat.vertices,
+        rolled(flat.vertices, 2.0, 0.4).reshape(-1, 3) @ turn.T,
+        rolled(flat.vertices * [1.2, 0.9, 1.0], -1.0, 1.3).reshape(-1, 3),
     ]
-    mu = np.linspace(0.5, 2.0, len(SQUARE.triangles))
-    meshes = [ShellMesh(x, SQUARE.triangles, thickness=SQUARE.thickness) for x in shapes]
-    return InterpolationProblem(meshes, material=ARAP(mu=mu, radius=request.param))
+    mu = np.linspace(0.5, 2.0, len(flat.triangles))
+    meshes = [ShellMesh(x, flat.triangles, thickness=flat.thickness) for x in shapes]
+    return InterpolationProblem(meshes, material=ARAP(mu=mu, radius=radius))
+
+
+@pytest.fixture(params=[0.0, 0.15], ids=["rings", "radius"], scope="module")
+def problem(request: pytest.FixtureRequest) -> InterpolationProblem:
+    return blended(SQUARE, request.param)
 
 
 @pytest.mark.parametrize("weights", [*np.eye(3), WEIGHTS, np.array([1.3, -0.1, -0.2])])
@@ -55,6 +59,17 @@ def test_the_blend_is_the_weighted_sum_of_the_poses_energies(
     problem: InterpolationProblem, weights: FloatArray
 ) -> None:
     """The full blend comes from another form than the energies of the poses."""
+    assert_weighted_sum(problem, weights)
+
+
+def test_stars_of_several_tiles_are_summed_as_others() -> None:
+    """The core visits the corners of a star in tiles of 128."""
+    problem = blended(irregular(600, thickness=0.04), radius=0.4)
+    assert np.diff(problem.pose_energy(0).stars().corners()[0]).max() > 2 * 128
+    assert_weighted_sum(problem, WEIGHTS)
+
+
+def assert_weighted_sum(problem: InterpolationProblem, weights: FloatArray) -> None:
     rng = np.random.default_rng(0)
     x = problem.tau + 0.03 * rng.normal(size=problem.tau.size)
     value, gradient = problem.value_and_gradient(x, weights)
