@@ -100,10 +100,10 @@ class GrowingSamples:
 
     @property
     def solved(self) -> Snapshots | None:
-        """The usable samples that are not held out; None if there are none."""
+        """The usable samples that are not held out, as `trained`; None if there are none."""
         if self._snapshots is None or not (which := self._snapshots.usable & ~self.held_out).any():
             return None
-        return self._snapshots.select(which)
+        return replace(self._snapshots.select(which), gram=self._gram.select(which))
 
     @property
     def trained(self) -> Snapshots:

@@ -15,7 +15,7 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import InterpolationModel, PosingModel, reduce
 from ..snapshots import Snapshots
-from ..subspace import snapshot_pca
+from ..subspace import snapshot_pca, spanned_dimension
 from .checks import check_budget, check_most, check_target
 from .dimension_search import DimensionSearch
 from .early_parts import make_early_parts
@@ -268,10 +268,11 @@ class ModelSearch:
         *,
         tets: int | None = None,
     ) -> Model:
-        """Makes a model; `trained` are the snapshots that train a cubature, default all."""
+        """A model of at most a dimension; `trained` are those that train it, default all."""
         self._begins("subspace")
         self._finish_parts()
-        subspace = snapshot_pca(snapshots, dimension=dimension)
+        most = spanned_dimension(snapshots)
+        subspace = snapshot_pca(snapshots, dimension=min(dimension, most))
         self._begins("energy")
         return reduce(
             self.samples.problem,

@@ -2,7 +2,14 @@
 
 from .affine_subspace import AffineSubspace
 from .directions import affine_subspace
-from .pca import pca, snapshot_pca
+from .pca import pca, snapshot_pca, spanned_dimension
 from .rigid_frames import RigidFrames
 
-__all__ = ["AffineSubspace", "RigidFrames", "affine_subspace", "pca", "snapshot_pca"]
+__all__ = [
+    "AffineSubspace",
+    "RigidFrames",
+    "affine_subspace",
+    "pca",
+    "snapshot_pca",
+    "spanned_dimension",
+]

@@ -81,29 +81,11 @@ def snapshot_pca(
         raise ValueError(
             f"snapshot_pca: handle_weight is {handle_weight}, but must be finite and not negative"
         )
-    which = np.ones(len(snapshots), bool) if include_unconverged else snapshots.usable
-    if not which.any():
-        raise ValueError(
-            f"snapshot_pca: none of the {len(snapshots)} snapshots converged; allow more "
-            "iterations, choose a smaller domain, or pass include_unconverged=True"
-        )
+    which = _which(snapshots, include_unconverged=include_unconverged)
     problem = snapshots.problem
-    known = solutions_beyond_tau(problem)[1] - problem.base
-    mass, offset = problem.mass(lumped=lumped), problem.base - problem.tau
-    usable = snapshots.displacements.select(which).followed_by(known)
-    if gram is None and not lumped:
-        gram = snapshots.gram
-    if gram is None:
-        products = SnapshotGram(mass, offset=offset)
-        products.add(usable)
-        matrix = products.matrix
-    else:
-        _check_gram(gram, mass, len(snapshots))
-        products = gram.copy()
-        products.add(known)
-        rows = np.append(which, np.ones(len(known), bool))
-        matrix = products.matrix[np.ix_(rows, rows)]
-    displacements = usable.shifted(offset)
+    mass = problem.mass(lumped=lumped)
+    usable, matrix = _usable_products(snapshots, which, mass, gram, lumped=lumped)
+    displacements = usable.shifted(problem.base - problem.tau)
     heavy = None
     if handle_weight > 0 and isinstance(problem, PosingProblem):
         heavy = matrix + handle_weight * handle_products(problem, displacements)
@@ -116,6 +98,59 @@ def snapshot_pca(
         dimension=dimension,
         energy_fraction=energy_fraction,
     )
+
+
+def spanned_dimension(snapshots: Snapshots) -> int:
+    """The largest dimension of `snapshot_pca`: independent directions of usable snapshots.
+
+    Nearly equal to their number, except where snapshots depend on one parameter: those between two
+    poses lie near a curve, and 34 of two Lions span 23 dimensions.
+
+    Raises
+    ------
+    ValueError
+        If no snapshot is usable, or if all are the reference shape.
+    """
+    problem, which = snapshots.problem, _which(snapshots, include_unconverged=False)
+    mass = problem.mass()
+    matrix = _usable_products(snapshots, which, mass, None, lumped=False)[1]
+    return _rank(_descending(matrix)[0], problem.tau, mass)
+
+
+def _which(snapshots: Snapshots, *, include_unconverged: bool) -> NDArray[np.bool_]:
+    """Which snapshots count, (k,); ValueError if none does."""
+    which = np.ones(len(snapshots), bool) if include_unconverged else snapshots.usable
+    if not which.any():
+        raise ValueError(
+            f"snapshot_pca: none of the {len(snapshots)} snapshots converged; allow more "
+            "iterations, choose a smaller domain, or pass include_unconverged=True"
+        )
+    return which
+
+
+def _usable_products(
+    snapshots: Snapshots,
+    which: NDArray[np.bool_],
+    mass: csr_array,
+    gram: SnapshotGram | None,
+    *,
+    lumped: bool,
+) -> tuple[DisplacementRows, FloatArray]:
+    """Displacements of some snapshots and of the known solutions, and their inner products."""
+    problem = snapshots.problem
+    known = solutions_beyond_tau(problem)[1] - problem.base
+    usable = snapshots.displacements.select(which).followed_by(known)
+    if gram is None and not lumped:
+        gram = snapshots.gram
+    if gram is None:
+        products = SnapshotGram(mass, offset=problem.base - problem.tau)
+        products.add(usable)
+        return usable, products.matrix
+    _check_gram(gram, mass, len(snapshots))
+    products = gram.copy()
+    products.add(known)
+    rows = np.append(which, np.ones(len(known), bool))
+    return usable, products.matrix[np.ix_(rows, rows)]
 
 
 def pca(

@@ -13,12 +13,13 @@ from snapspace import (
     InterpolationProblem,
     ShellPoses,
     Snapshots,
+    accurate_model,
     reduce,
     snapshot_pca,
     solve_snapshots,
 )
 from snapspace.accurate import model_search
-from snapspace.accurate.dimension_search import DimensionSearch
+from snapspace.accurate.dimension_search import MODES_PER_SOLUTION, DimensionSearch
 from snapspace.accurate.growing_samples import GrowingSamples, Model
 from snapspace.accurate.measured_ratio import measured_ratio
 from snapspace.accurate.model_search import SearchOptions
@@ -27,6 +28,7 @@ from snapspace.accurate.predicting import Predicting
 from snapspace.accurate.solving import Solving
 from snapspace.generators import lizard_poses
 from snapspace.mesh import mass_norms
+from snapspace.subspace import spanned_dimension
 from snapspace.validation import unseen_errors
 
 FloatArray = NDArray[np.float64]
@@ -60,14 +62,17 @@ class Predicted:
         return reduce(self.problem, subspace, snapshots=trained, threads=2)
 
 
-@pytest.fixture(scope="module")
-def problem() -> InterpolationProblem:
-    """Three lizards, as surfaces."""
-    meshes = lizard_poses(3, 2000, seed=3)
+def lizards(count: int) -> ShellPoses:
+    """Poses as surfaces."""
+    meshes = lizard_poses(count, 2000, seed=3)
     used, faces = np.unique(meshes[0].surface, return_inverse=True)
     shapes = [mesh.vertices[used] for mesh in meshes]
-    poses = ShellPoses(shapes, faces.reshape(-1, 3), thickness=0.02)
-    return InterpolationProblem(poses, material=ARAP())
+    return ShellPoses(shapes, faces.reshape(-1, 3), thickness=0.02)
+
+
+@pytest.fixture(scope="module")
+def problem() -> InterpolationProblem:
+    return InterpolationProblem(lizards(3), material=ARAP())
 
 
 @pytest.fixture(scope="module")
@@ -119,3 +124,11 @@ def test_the_first_dimension_follows_from_that_ratio(
     tries = DimensionSearch(search.samples, BLENDS, search.target, ratios[-1])
     assert first.step.dimension == next(tries.dimensions(last=False))
     assert ratios[-1] != BLENDS.first_ratio
+
+
+def test_two_poses_get_a_model_although_their_blends_span_few_dimensions() -> None:
+    """The samples lie near a curve: models that predict have fewer dimensions than usual."""
+    accurate = accurate_model(InterpolationProblem(lizards(2)))
+    solved = accurate.snapshots.select(~accurate.held_out)
+    assert spanned_dimension(solved) < MODES_PER_SOLUTION * len(solved)
+    assert accurate.step.error <= BLENDS.target

@@ -9,6 +9,7 @@ import pytest
 
 from snapspace import Snapshots, pca, snapshot_pca, solve_snapshots
 from snapspace.mesh import mass_gram, mass_matrix
+from snapspace.subspace import spanned_dimension
 
 from ..snapshots.bars import parameters, posing_bar
 
@@ -62,6 +63,13 @@ def test_unconverged_snapshots_are_left_out_unless_requested(snapshots: Snapshot
         r"use more samples or a smaller dimension",
     ):
         snapshot_pca(failing, dimension=8)
+
+
+def test_usable_snapshots_span_their_independent_directions(snapshots: Snapshots) -> None:
+    failing = with_failures(snapshots, [1, 4, 7])
+    assert spanned_dimension(snapshots) == 10
+    assert spanned_dimension(failing) == 7
+    assert spanned_dimension(failing.joined(failing)) == 7, "repetitions add nothing"
 
 
 def test_snapshots_without_a_converged_one_are_refused_with_the_cure(snapshots: Snapshots) -> None:
