@@ -331,6 +331,12 @@ class SampleSystem:
     @property
     def input_size(self) -> int: ...
 
+    @property
+    def patches(self) -> int:
+        """
+        Number of patches whose rigid motions are in the seed; 0 for systems without them.
+        """
+
     def precondition(self, vector: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """
         The inverse of the scalar matrix, or its approximation, applied to x, y and z.
@@ -427,9 +433,9 @@ class CoarseSpace:
 
     def __init__(self, system: SampleSystem, modes: NDArray[numpy.float64]) -> None: ...
 
-def polish(system: SampleSystem, coarse: CoarseSpace, inverse: NDArray[numpy.float64], input: NDArray[numpy.float64], start: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl) -> Solution:
+def polish(system: SampleSystem, coarse: CoarseSpace | None, inverse: NDArray[numpy.float64], input: NDArray[numpy.float64], start: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl) -> Solution:
     """
-    L-BFGS on one sample from start (3n,), with a two-level seed; inverse (d, d) is that of the Hessian on the coarse space. If it is cancelled, it returns the lowest shape so far.
+    L-BFGS on one sample from start (3n,), with a two-level seed; inverse (d, d) is that of the Hessian on the coarse space, or (0, 0) without one, as for systems with patches. If it is cancelled, it returns the lowest shape so far.
     """
 
 class FitStatus(enum.Enum):

@@ -20,14 +20,15 @@ void bind_polish(nb::module_& m) {
           nb::arg("system"), nb::arg("modes"));
   m.def(
       "polish",
-      [](const SampleSystem& system, const CoarseSpace& coarse, MatrixIn inverse, VectorIn input,
+      [](const SampleSystem& system, const CoarseSpace* coarse, MatrixIn inverse, VectorIn input,
          VectorIn start, double tolerance, int max_iterations, int threads, SolveControl& control) {
         const auto size = static_cast<std::size_t>(system.size());
         require(input.size() == static_cast<std::size_t>(system.input_size()),
                 "the input must be (input_size,)");
-        require(start.size() == size && coarse.size() == size, "the start must be (3n,)");
+        require(start.size() == size && (!coarse || coarse->size() == size),
+                "the start must be (3n,)");
         require(threads >= 1, "threads must be positive");
-        const auto d = static_cast<std::size_t>(coarse.dimension());
+        const auto d = coarse ? static_cast<std::size_t>(coarse->dimension()) : 0;
         require(inverse.shape(0) == d && inverse.shape(1) == d, "the inverse must be (d, d)");
         Sample sample{0,
                       {input.data(), input.data() + input.size()},
@@ -38,11 +39,11 @@ void bind_polish(nb::module_& m) {
         const ReleasedGil released;
         return polish(system, coarse, sample, options, control);
       },
-      nb::arg("system"), nb::arg("coarse"), nb::arg("inverse"), nb::arg("input"), nb::arg("start"),
+      nb::arg("system"), nb::arg("coarse").none(), nb::arg("inverse"), nb::arg("input"), nb::arg("start"),
       nb::kw_only(), nb::arg("tolerance"), nb::arg("max_iterations"), nb::arg("threads"),
       nb::arg("control"),
       "L-BFGS on one sample from start (3n,), with a two-level seed; inverse (d, d) is that of the "
-      "Hessian on the coarse space. If it is cancelled, it returns the lowest shape so far.");
+      "Hessian on the coarse space, or (0, 0) without one, as for systems with patches. If it is cancelled, it returns the lowest shape so far.");
 }
 
 }  // namespace snapspace

@@ -80,6 +80,10 @@ void bind_system(nb::module_& m) {
           "lowest_eigenvalue", [](const System& self) { return self.inverse.lowest_eigenvalue(); },
           "Lowest eigenvalue of cycle * scalar matrix if a cycle was made, even if unused.")
       .def_prop_ro("input_size", &System::input_size)
+      .def_prop_ro(
+          "patches",
+          [](const System& self) { return self.patches() ? self.patches()->count() : 0; },
+          "Number of patches whose rigid motions are in the seed; 0 for systems without them.")
       .def(
           "precondition",
           [](const System& self, VectorIn vector) {

@@ -18,6 +18,11 @@ class WatchedObjective final : public LaneObjective<Real> {
   [[nodiscard]] int size() const override { return objective_->size(); }
   [[nodiscard]] double negligible() const override { return objective_->negligible(); }
   void load(int lane, const double* input) override { objective_->load(lane, input); }
+  [[nodiscard]] std::shared_ptr<const SampleSeed> seed_near(const double* input,
+                                                            const double* u) const override {
+    return objective_->seed_near(input, u);
+  }
+  void load_seed(int lane, const SampleSeed& seed) override { objective_->load_seed(lane, seed); }
 
   Sum<Real> value_and_gradient(const Real* u, Real* gradient, SweepVisitor& visitor) override {
     const Sum<Real> value = objective_->value_and_gradient(u, gradient, visitor);

@@ -6,7 +6,7 @@
 
 #include "polish/lowest_shape.h"
 #include "snapshots/run_lanes.h"
-#include "snapshots/two_level.h"
+#include "snapshots/solve.h"
 #include "threads/flush_denormals.h"
 
 namespace snapspace {
@@ -34,16 +34,15 @@ struct OneSample final : SampleExchange {
 
 }  // namespace
 
-Solution polish(const SampleSystem& system, const CoarseSpace& coarse, const Sample& sample,
+Solution polish(const SampleSystem& system, const CoarseSpace* coarse, const Sample& sample,
                 const SolveOptions& options, const SolveControl& control) {
   const FlushDenormals flush;
   OneSample exchange(sample);
   system.numbering.to_internal(sample.start.data(), exchange.waiting->start.data());
   LowestShape lowest;
-  const LaneObjectives objectives = on_two_levels(system.lanes(), system.input_size(), coarse);
-  // The inverse has the right scale, so the seed is not scaled.
-  run_lanes(kLongMemory, watched(objectives, lowest), 2, options, options.threads, exchange,
-            control);
+  // Both inverses have the right scale, so the seed is not scaled.
+  run_lanes(kLongMemory, watched(seeded(system, {.coarse = coarse}), lowest), 2, options,
+            options.threads, exchange, control);
 
   Solution result{sample.id, {}, sample.start};
   std::vector<double> internal = std::move(lowest.shape);

@@ -112,26 +112,43 @@ InterpolationSystem::InterpolationSystem(const LocalMesh& mesh, const std::vecto
           std::make_shared<BlendedEnergy>(poses.data(), count, static_cast<int>(mesh.order.size()),
                                           mesh.tets.data(), static_cast<int>(mesh.tets.size() / 4),
                                           material.reordered(mesh.tet_order, mesh.order)),
-          mesh.tet_order) {}
+          mesh.tet_order,
+          is_of_stars(material.view().kind)
+              ? std::make_shared<RigidPatches>(
+                    poses.data(), count, static_cast<int>(mesh.order.size()), mesh.tets.data(),
+                    static_cast<int>(mesh.tets.size() / 4))
+              : nullptr) {}
 
 InterpolationSystem::InterpolationSystem(Numbering numbers,
                                          std::shared_ptr<const BlendedEnergy> blended,
-                                         std::vector<std::int32_t> tets)
-    : InterpolationSystem(std::move(numbers), blended, std::move(tets),
+                                         std::vector<std::int32_t> tets,
+                                         std::shared_ptr<const RigidPatches> patches)
+    : InterpolationSystem(std::move(numbers), blended, std::move(tets), std::move(patches),
                           ScalarInverse(scalar_matrix(
                               *blended, std::vector<double>(blended->size(), 0.0),
                               std::vector<double>(blended->poses(), 1.0 / blended->poses())))) {}
 
 InterpolationSystem::InterpolationSystem(Numbering numbers,
                                          std::shared_ptr<const BlendedEnergy> blended,
-                                         std::vector<std::int32_t> tets, ScalarInverse scalar)
+                                         std::vector<std::int32_t> tets,
+                                         std::shared_ptr<const RigidPatches> patches,
+                                         ScalarInverse scalar)
     : SampleSystem(std::move(numbers), std::move(scalar)),
       energy(std::move(blended)),
-      tet_order(std::move(tets)) {}
+      tet_order(std::move(tets)),
+      patches_(std::move(patches)) {}
 
 InterpolationSystem InterpolationSystem::adapted(const std::vector<double>& shapes,
                                                  const std::vector<double>& weights) const {
-  return {numbering, energy, tet_order, inverse.of(scalar_matrix(*energy, shapes, weights))};
+  return {numbering, energy, tet_order, patches_,
+          inverse.of(scalar_matrix(*energy, shapes, weights))};
+}
+
+void InterpolationSystem::add_to(PatchHessian& hessian, const double* weights) const {
+  std::vector<PatchHessian::Part> parts;
+  for (int k = 0; k < energy->poses(); ++k)
+    if (weights[k] != 0.0) parts.push_back({&*energy->energy(k).stars, weights[k]});
+  hessian.add(parts);
 }
 
 LaneObjectives InterpolationSystem::lanes() const {

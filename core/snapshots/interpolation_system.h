@@ -43,6 +43,10 @@ class InterpolationSystem final : public SampleSystem {
   [[nodiscard]] LbfgsMemory memory() const override { return kLongMemory; }
 
   [[nodiscard]] LaneObjectives lanes() const override;
+  [[nodiscard]] const RigidPatches* patches() const override {
+    return patches_ && patches_->count() > 0 ? patches_.get() : nullptr;
+  }
+  void add_to(PatchHessian& hessian, const double* weights) const override;
   [[nodiscard]] std::unique_ptr<LaneObjective<double>> objective() const override;
   [[nodiscard]] BlockHessian hessian_pattern() const override {
     return BlockHessian(energy->energy(0));
@@ -52,9 +56,12 @@ class InterpolationSystem final : public SampleSystem {
 
  private:
   InterpolationSystem(Numbering numbers, std::shared_ptr<const BlendedEnergy> blended,
-                      std::vector<std::int32_t> tets);
+                      std::vector<std::int32_t> tets, std::shared_ptr<const RigidPatches> patches);
   InterpolationSystem(Numbering numbers, std::shared_ptr<const BlendedEnergy> blended,
-                      std::vector<std::int32_t> tets, ScalarInverse scalar);
+                      std::vector<std::int32_t> tets, std::shared_ptr<const RigidPatches> patches,
+                      ScalarInverse scalar);
+
+  std::shared_ptr<const RigidPatches> patches_;  // shared like the energy
 };
 
 }  // namespace snapspace

@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "snapshots/line_search.h"
 #include "snapshots/sample_queue.h"
+#include "snapshots/sample_seed.h"
 #include "snapshots/solve_report.h"
 
 namespace snapspace {
@@ -18,13 +20,16 @@ struct Lane {
   static constexpr int kSettling = 4;
   static constexpr double kPatience = 48.0;  // iterations
   static constexpr int kMaxShortenings = 30;
+  static constexpr int kFirstRenewal = 8;  // iterations
+  static constexpr double kMoved = 0.1;    // share of the displacement
 
   /// The outcome of a trial: the sample starts there, has moved there, or stays where it was.
   enum class TrialOutcome { refused, started, moved };
 
   std::optional<Sample> sample;
-  bool fresh = false;      // the start itself is evaluated next
-  bool restarted = false;  // since the last accepted step
+  std::shared_ptr<const SampleSeed> seed;  // null if the objective's is the same everywhere
+  bool fresh = false;                      // the start itself is evaluated next
+  bool restarted = false;                  // since the last accepted step
   bool done = false;
   int iterations = 0;
   int evaluations = 0;
@@ -37,6 +42,8 @@ struct Lane {
   double decreases[kWindow] = {};     // of the last accepted steps
   double directions[kSettling] = {};  // lengths of the last steps, as if all were full
   double displacement = 0.0;          // its length
+  double path = 0.0;                  // length of the steps since the seed was made
+  int next_seed = kFirstRenewal;      // iterations before another one
   SolveStatus status = SolveStatus::cancelled;
   std::chrono::steady_clock::time_point begin;
 
@@ -96,10 +103,16 @@ struct Lane {
     return result;
   }
 
+  /// Whether the sample has moved so far from where its seed was made that another one pays.
+  [[nodiscard]] bool needs_seed() const {
+    return seed && iterations >= next_seed && path > kMoved * displacement;
+  }
+
   void record(double decrease, double direction, double length) {
     decreases[iterations % kWindow] = decrease;
     directions[iterations % kSettling] = direction;
     displacement = length;
+    path += direction * step;
     ++iterations;
   }
 

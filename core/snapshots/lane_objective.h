@@ -1,6 +1,9 @@
 #pragma once
+#include <memory>
+
 #include "mesh/sweep.h"
 #include "simd/lanes.h"
+#include "snapshots/sample_seed.h"
 
 namespace snapspace {
 
@@ -29,6 +32,13 @@ class LaneObjective {
   [[nodiscard]] virtual double negligible() const = 0;
   /// Loads the input of a sample into a lane (input_size() numbers of the system).
   virtual void load(int lane, const double* input) = 0;
+  /// What the seed of a sample depends on near a shape u (3n); null if it is the same everywhere.
+  [[nodiscard]] virtual std::shared_ptr<const SampleSeed> seed_near(const double* /*input*/,
+                                                                    const double* /*u*/) const {
+    return nullptr;
+  }
+  /// Gives a lane a seed that an objective of the same system has made.
+  virtual void load_seed(int /*lane*/, const SampleSeed& /*seed*/) {}
   /// F at u (3n). Its gradient overwrites `gradient`; the visitor sees only complete entries.
   virtual Sum<Real> value_and_gradient(const Real* u, Real* gradient, SweepVisitor& visitor) = 0;
   /// result = the seed of the inverse Hessian times vector, both 3n; they may be the same array.

@@ -19,6 +19,7 @@
 #include "simd/lanes.h"
 #include "snapshots/lane.h"
 #include "snapshots/lane_objectives.h"
+#include "snapshots/lane_seed.h"
 #include "snapshots/lbfgs_vectors.h"
 #include "snapshots/sample_exchange.h"
 #include "snapshots/solve_report.h"
@@ -94,6 +95,7 @@ class LaneLbfgs {
       lanes_[lane] = std::exchange(from.lanes_[source_lane], {});
       steps_.set(lane, from.steps_[source_lane]);
       objective_->load(lane, lanes_[lane].sample->input.data());
+      if (lanes_[lane].seed) objective_->load_seed(lane, *lanes_[lane].seed);
       pairs_[lane] = from.pairs_[source_lane];
       for (int i = 0; i < size_; ++i) trial_[i].set(lane, from.trial_[i][source_lane]);
     }
@@ -139,6 +141,7 @@ class LaneLbfgs {
       if (!pending_) set_lane(trial_[i], index, sample.start[i]);  // otherwise the next pass does
     }
     lane.sample = std::move(sample);
+    set_seed(*objective_, index, lane, lane.sample->start);
   }
 
   /// Evaluates all lanes once and takes the consequences. Returns false if the control cancels; it
@@ -259,6 +262,14 @@ class LaneLbfgs {
         lane.settled(options_.settling))
       return lane.finish(SolveStatus::converged);
     if (lane.iterations >= options_.max_iterations) lane.finish(SolveStatus::max_iterations);
+    if (!lane.done && lane.needs_seed()) renew_seed(index);
+  }
+
+  /// Continues with a seed made at a lane's trial. The memory belongs to the old one.
+  void renew_seed(int index) {
+    set_seed(*objective_, index, lanes_[index], lane_of(trial_, index));
+    pairs_[index].forget();
+    lanes_[index].fresh = true;
   }
 
   /// Rounding gave an ascent direction: forgets the memory and continues along the preconditioned

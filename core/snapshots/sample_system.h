@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "energy/block_hessian.h"
+#include "patches/patch_hessian.h"
 #include "snapshots/numbering.h"
 #include "snapshots/pair_products.h"
 #include "snapshots/scalar_inverse.h"
@@ -44,6 +45,10 @@ class SampleSystem {
   [[nodiscard]] virtual std::unique_ptr<LaneObjective<double>> objective() const = 0;
   /// The objective at u (3n) for an input. Its gradient overwrites `gradient`.
   double value_and_gradient(const double* input, const double* u, double* gradient) const;
+  /// Patches whose rigid motions are soft; null where the scalar matrix suffices.
+  [[nodiscard]] virtual const RigidPatches* patches() const { return nullptr; }
+  /// Adds the energy of the sample with this input.
+  virtual void add_to(PatchHessian& /*hessian*/, const double* /*input*/) const {}
   [[nodiscard]] virtual BlockHessian hessian_pattern() const = 0;
   /// The Hessian at u of the sample with this input.
   virtual void assemble(const double* input, const double* u, const HessianOptions& options,

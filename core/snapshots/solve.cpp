@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "snapshots/newton.h"
+#include "snapshots/patched.h"
 #include "snapshots/run_lanes.h"
 #include "snapshots/softened.h"
 #include "snapshots/two_level.h"
@@ -22,11 +23,6 @@ int thread_count(int wanted) {
 
 /// Packs have at least two samples: alone in a pack, a sample would cost nearly as much as two.
 int pack_count(int expected, int threads) { return std::clamp((expected + 1) / 2, 1, threads); }
-
-LaneObjectives seeded(const SampleSystem& system, const LowRankSeed& seed) {
-  if (seed.coarse) return on_two_levels(system.lanes(), system.input_size(), *seed.coarse);
-  return seed.modes ? softened(system.lanes(), *seed.modes) : system.lanes();
-}
 
 /// The queue as one solver sees it, in the numbering of the system. It does not allocate per
 /// sample: that would cost more than the copy.
@@ -66,6 +62,12 @@ class QueueExchange final : public SampleExchange {
 };
 
 }  // namespace
+
+LaneObjectives seeded(const SampleSystem& system, const LowRankSeed& seed) {
+  if (seed.coarse) return on_two_levels(system.lanes(), system.input_size(), *seed.coarse);
+  if (seed.modes) return softened(system.lanes(), *seed.modes);
+  return system.patches() ? on_patches(system) : system.lanes();
+}
 
 void solve_fast(const SampleSystem& system, const LowRankSeed& seed, SampleQueue& queue,
                 int expected, const SolveOptions& options, SolveControl& control) {

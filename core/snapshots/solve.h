@@ -1,5 +1,6 @@
 #pragma once
 #include "snapshots/coarse_space.h"
+#include "snapshots/lane_objectives.h"
 #include "snapshots/sample_queue.h"
 #include "snapshots/sample_system.h"
 #include "snapshots/soft_modes.h"
@@ -7,13 +8,17 @@
 
 namespace snapspace {
 
-/// What is added to the inverse of the scalar matrix: nothing, soft modes that all samples share,
-/// or the inverse Hessian of each sample on a coarse space. Then the input of a sample is that of
-/// the system and after it this inverse, see `on_two_levels`.
+/// What is added to the inverse of the scalar matrix: soft modes that all samples share, or the
+/// inverse Hessian of each sample on a coarse space, or else on the system's patches, if it has
+/// any. With a coarse space the input of a sample is that of the system and after it this inverse,
+/// see `on_two_levels`.
 struct LowRankSeed {
   const SoftModes* modes = nullptr;
   const CoarseSpace* coarse = nullptr;
 };
+
+/// Objectives of a system with this seed. They refer to all of these.
+[[nodiscard]] LaneObjectives seeded(const SampleSystem& system, const LowRankSeed& seed);
 
 /// Solves the samples of a queue until it is closed and empty, or the control cancels, by L-BFGS on
 /// the scalar factor: one sample per lane, and a pack of lanes per thread. The result of a sample

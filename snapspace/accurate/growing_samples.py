@@ -164,7 +164,8 @@ class GrowingSamples:
             model = None if independent else predict()
             begin, start = time.perf_counter(), None
             if model is not None:
-                start = predicted_solutions(model, wanted, hessians=predicted)
+                hessians = None if predicted else False
+                start = predicted_solutions(model, wanted, hessians=hessians)
             solved = solve_snapshots(
                 self.problem,
                 wanted,

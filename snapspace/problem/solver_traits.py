@@ -31,8 +31,10 @@ class SolverTraits:
     soft_modes : returns the modes that the system's scalar factor mistakes for stiff, or None if
         unknown; the first call computes them, and the problem keeps them
     system_near : returns the compiled problem for solutions near a displacement (3n,)
-    seeded_tolerance : tolerance of snapshots that start from a reduced model's solutions, with its
-        Hessians in the seed, see `Predictions`; None if such seeds do not pay
+    seeded_tolerance : tolerance of snapshots that start from a reduced model's solutions; None if
+        such starts do not pay
+    seeded_hessians : whether its Hessians are in their seed, see `Predictions`; not where the
+        system's seed knows soft motions without them
     """
 
     tolerance: float
@@ -44,6 +46,7 @@ class SolverTraits:
     soft_modes: Callable[[], core.SoftModes | None]
     system_near: Callable[[FloatArray], Any]
     seeded_tolerance: float | None
+    seeded_hessians: bool
 
 
 #: Iterations on the shared factor after which an interpolated sample gets its own factor. Most take
@@ -114,6 +117,7 @@ def posing_traits(
         seeded_tolerance=(
             None if shell else max(SEEDED_TOLERANCE * _shear_share(material), tolerance)
         ),
+        seeded_hessians=True,
     )
 
 
@@ -136,9 +140,9 @@ def interpolation_traits(
     shapes move along them in steps too short for settling to be recognised: the tolerance must be
     tight. Halfway between distant poses a blend of solutions shrinks and turns inside out.
 
-    Surfaces as rigid as possible take 130 to 200 evaluations, from starts of a model 40 to 140, and
-    with its Hessians in the seed 20 to 145. Four Lions of tets take 35 with a model's starts and 33
-    with its Hessians, and motions of a creature 23 with either.
+    Surfaces as rigid as possible have patches in their seed: they take 35 to 55 evaluations, from
+    starts of a model 16 to 40, and are as near to the minimum with 1e-7 as with 1e-9. Four Lions of
+    tets take 35 with a model's starts and 33 with its Hessians.
     """
     return SolverTraits(
         tolerance=1e-9,
@@ -149,5 +153,6 @@ def interpolation_traits(
         far_apart=True,
         soft_modes=lambda: None,
         system_near=system_near,
-        seeded_tolerance=1e-9 if shell and isinstance(material, ARAP) else None,
+        seeded_tolerance=1e-8 if shell and isinstance(material, ARAP) else None,
+        seeded_hessians=False,
     )

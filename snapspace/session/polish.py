@@ -58,6 +58,9 @@ class Polisher:
     with this seed do as much as sixteen with A^-1 alone, and between poses, where no handles hold
     the shape, as much as more than thirty.
 
+    Blends of surfaces that are as rigid as possible have the rigid motions of patches in the place
+    of U: these span soft deformations that no sample has.
+
     Parameters
     ----------
     problem : PosingProblem or InterpolationProblem
@@ -67,8 +70,10 @@ class Polisher:
     def __init__(self, problem: Problem, subspace: AffineSubspace) -> None:
         self._problem, self._subspace = problem, subspace
         self._system: Any = problem.system
-        modes = np.ascontiguousarray(subspace.basis.T)
-        self._coarse = run_abandonable(lambda: core.CoarseSpace(self._system, modes))
+        self._coarse: core.CoarseSpace | None = None
+        if not self._system.patches:
+            modes = np.ascontiguousarray(subspace.basis.T)
+            self._coarse = run_abandonable(lambda: core.CoarseSpace(self._system, modes))
         self._root_mass = math.sqrt(float(subspace.mass.sum()))
 
     @property
@@ -76,11 +81,16 @@ class Polisher:
         """Dimension d of the subspace."""
         return self._subspace.dimension
 
+    @property
+    def needs_hessian(self) -> bool:
+        """Whether the seed has the reduced Hessian."""
+        return self._coarse is not None
+
     def polish(
         self,
         q: FloatArray,
         inputs: FloatArray,
-        hessian: FloatArray,
+        hessian: FloatArray | None,
         place: Place,
         *,
         iterations: int,
@@ -93,14 +103,15 @@ class Polisher:
         ----------
         q : reduced coordinates, (d,)
         inputs : inputs of the problem's system, (input_size,)
-        hessian : Hessian of the reduced objective at q, (d, d)
+        hessian : Hessian of the reduced objective at q, (d, d); None if it is not needed
         place : moves vertices (n, 3) to where the session shows them
         iterations, tolerance, should_stop : as for `Session.polish`
         """
         begin = time.perf_counter()
         start = self._subspace.shape(q) - self._problem.base
         how = {"tolerance": tolerance, "max_iterations": iterations}
-        solution = self._solve(start, inputs, positive_inverse(hessian), how, should_stop)
+        inverse = np.empty((0, 0)) if hessian is None else positive_inverse(hessian)
+        solution = self._solve(start, inputs, inverse, how, should_stop)
         after = self._problem.registered(solution.shape[None])[0]
         before = self._problem.registered(start[None])[0]
         moved = mass_norm(self._subspace.mass, after - before)

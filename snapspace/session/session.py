@@ -190,7 +190,7 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         return self._polisher.polish(
             q,
             self._inputs(),
-            self.hessian(),
+            self.hessian() if self._polisher.needs_hessian else None,
             self._placed,
             iterations=iterations,
             tolerance=tolerance,

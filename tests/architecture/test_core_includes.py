@@ -20,6 +20,7 @@ ALLOWED: dict[str, set[str]] = {
     "energy": {"element", "material", "memory", "mesh", "simd", "threads"},
     "cholesky": {"memory", "simd"},
     "multigrid": {"cholesky", "dense", "memory", "simd"},
+    "patches": {"energy", "material", "mesh"},
     "snapshots": {
         "cholesky",
         "dense",
@@ -28,6 +29,7 @@ ALLOWED: dict[str, set[str]] = {
         "memory",
         "mesh",
         "multigrid",
+        "patches",
         "simd",
         "threads",
     },

@@ -1,0 +1,74 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "energy/vertex_stars.h"
+#include "patches/rigid_patches.h"
+
+namespace snapspace {
+
+/// The Hessian of a surface that is as rigid as possible, for rigid motions of its patches about
+/// their centers at a shape.
+class PatchHessian {
+ public:
+  /// @param u  the shape, displaced from the positions of the patches (3n)
+  PatchHessian(const RigidPatches& patches, const double* u);
+
+  /// A part of the energy: weight times that of stars.
+  struct Part {
+    const VertexStars* stars;
+    double weight;
+  };
+  /// Adds the energy of parts, whose stars have the same corners. Weights may be negative.
+  void add(const std::vector<Part>& parts);
+
+  /// The inverse (d x d). Translations of the whole surface have no energy; they are made as stiff
+  /// as those of single patches. Where the Hessian is not positive definite, a
+  /// multiple of the Dirichlet energy's is added, as Newton's method shifts Hessians (Nocedal &
+  /// Wright 2006, sec. 3.4).
+  [[nodiscard]] Eigen::MatrixXd inverse();
+
+  /// Centers of the patches, three each.
+  [[nodiscard]] const std::vector<double>& centers() const { return centers_; }
+  /// Positions of the vertices at the shape, from the mean of all, 3n.
+  [[nodiscard]] const std::vector<double>& positions() const { return positions_; }
+
+ private:
+  using Vector = Eigen::Vector3d;
+  using Matrix = Eigen::Matrix3d;
+  using Homogeneous = Eigen::Vector4d;          // a hat times (1, x)
+  using Moments = Eigen::Matrix<double, 4, 3>;  // sums of these (x) gradients over corners
+
+  [[nodiscard]] Vector position(int vertex) const {
+    return Eigen::Map<const Vector>(&positions_[3 * static_cast<std::size_t>(vertex)]);
+  }
+  [[nodiscard]] Vector center(int patch) const {
+    return Eigen::Map<const Vector>(&centers_[3 * static_cast<std::size_t>(patch)]);
+  }
+  [[nodiscard]] Homogeneous homogeneous(int vertex, double hat) const {
+    Homogeneous result;
+    result << 1.0, position(vertex);
+    return hat * result;
+  }
+  void add_stars(const std::vector<Part>& parts, int star);
+  void add_rotation(const Part& part, int star, Eigen::Index column);
+  void add_couplings(const VertexStars& pattern, const std::vector<double>& couplings);
+  void find_hats(const VertexStars& stars, int star);
+  void hold_translations();
+  void hold_small_patches();
+
+  const RigidPatches& patches_;
+  std::vector<double> positions_, centers_;
+  Eigen::MatrixXd dirichlet_, rotations_;  // their parts, lower triangles
+  // of a star: the patches that it touches, their hats at its corners, and what its rotations in
+  // all parts feel of their motions
+  std::vector<std::int32_t> touched_;
+  std::vector<int> slots_;  // of patches in these; -1
+  std::vector<Homogeneous> hats_;
+  std::vector<Moments> moments_;
+  Eigen::MatrixXd felt_, weighted_;  // motions x 3 per part
+  Eigen::MatrixXd products_;         // motions x motions
+};
+
+}  // namespace snapspace
