@@ -39,11 +39,12 @@ void bind_polish(nb::module_& m) {
         const ReleasedGil released;
         return polish(system, coarse, sample, options, control);
       },
-      nb::arg("system"), nb::arg("coarse").none(), nb::arg("inverse"), nb::arg("input"), nb::arg("start"),
-      nb::kw_only(), nb::arg("tolerance"), nb::arg("max_iterations"), nb::arg("threads"),
-      nb::arg("control"),
+      nb::arg("system"), nb::arg("coarse").none(), nb::arg("inverse"), nb::arg("input"),
+      nb::arg("start"), nb::kw_only(), nb::arg("tolerance"), nb::arg("max_iterations"),
+      nb::arg("threads"), nb::arg("control"),
       "L-BFGS on one sample from start (3n,), with a two-level seed; inverse (d, d) is that of the "
-      "Hessian on the coarse space, or (0, 0) without one, as for systems with patches. If it is cancelled, it returns the lowest shape so far.");
+      "Hessian on the coarse space, or (0, 0) without one, as for systems with patches. If it is "
+      "cancelled, it returns the lowest shape so far.");
 }
 
 }  // namespace snapspace

@@ -13,8 +13,8 @@ FloatArray = NDArray[np.float64]
 
 #: Hessians of samples are taken to be so much stiffer than the model's. A cubature misses the few
 #: elements that are nearly flat or turned over. A seed that is too soft takes steps that are too
-#: long: blends of a centaur's surface, d = 57, took 123 evaluations with 1, 74 with 2 and 54 with 4,
-#: as many as with the exact Hessian; on the Lion 30.
+#: long: blends of a centaur's surface, d = 57, took 123 evaluations with 1, 74 with 2 and 54 with
+#: 4, as many as with the exact Hessian; on the Lion 30.
 STIFFER = 4.0
 #: Tolerance of a prediction with Hessians: full solves begin in the same coordinates, with the same
 #: Hessians.
