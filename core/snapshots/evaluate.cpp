@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "snapshots/lane_objectives.h"
+#include "snapshots/lane_seed.h"
+#include "snapshots/solve.h"
 #include "threads/flush_denormals.h"
 #include "threads/parallel.h"
 
@@ -42,9 +44,14 @@ class Evaluation {
     take(gradients_, count, gradients);
   }
 
-  /// The last gradients times the seed of the inverse Hessian, and their products.
-  void precondition(int count, double* products, double* images) {
+  /// The last gradients times the seed of the inverse Hessian there, and their products.
+  void precondition(int count, const double* inputs, double* products, double* images) {
     using Single = typename LaneObjective<Real>::Single;
+    for (int lane = 0; lane < kWidth; ++lane) {
+      const double* input = inputs + std::min(lane, count - 1) * system_.input_size();
+      const auto seed = objective_->seed_near(input, lane_of(shapes_, lane).data());
+      if (seed) objective_->load_seed(lane, *seed);
+    }
     std::vector<Single> vectors(gradients_.size());
     for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = cast<float>(gradients_[i]);
     const auto sums = objective_->precondition(vectors.data(), vectors.data());
@@ -77,7 +84,7 @@ bool evaluate_pack(const SampleSystem& system, const LaneObjectives& objectives,
   const FlushDenormals flush;
   Evaluation<Real> evaluation(system, objectives);
   evaluation(count, inputs, shapes, results.values, results.gradients);
-  evaluation.precondition(count, results.products, results.images);
+  evaluation.precondition(count, inputs, results.products, results.images);
   return true;
 }
 
@@ -111,7 +118,8 @@ void evaluate(const SampleSystem& system, int count, const double* inputs, const
 
 bool evaluate_in_pack(const SampleSystem& system, PackKind kind, int count, const double* inputs,
                       const double* shapes, const PackResults& results) {
-  return evaluate_pack(LanePacks(), system, system.lanes(), kind, count, inputs, shapes, results);
+  return evaluate_pack(LanePacks(), system, seeded(system, {}), kind, count, inputs, shapes,
+                       results);
 }
 
 }  // namespace snapspace

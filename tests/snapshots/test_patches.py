@@ -67,6 +67,30 @@ def without_patches(problem: InterpolationProblem, count: int) -> tuple[FloatArr
     return basis, np.full((count, 1, 1), 1e-30)
 
 
+def correction(problem: InterpolationProblem, shape: FloatArray, w: FloatArray) -> FloatArray:
+    """What the patches add to the seed, times the gradient at a displacement."""
+    _, gradients, _, images = problem.system.evaluate_in_pack(
+        shape[None], w[None], width=2, single=False
+    )
+    result: FloatArray = images[0] - problem.system.precondition(gradients[0])
+    return result
+
+
+def test_corrections_are_newton_steps_for_motions_of_the_patches(
+    problem: InterpolationProblem, solved: Snapshots, wanted: FloatArray
+) -> None:
+    """A step in their space, from the minimum, is undone: B is nearly the inverse of V^T H V.
+
+    The shift of the Hessian leaves a tenth; a shift of 1e-4 would leave 0.005.
+    """
+    w, minimum = wanted[0], solved.displacements[0]
+    noise = np.random.default_rng(0).normal(size=minimum.size)
+    in_space = correction(problem, minimum + 1e-5 * noise, w)
+    undone = correction(problem, minimum + in_space, w)
+    undone -= correction(problem, minimum, w)
+    assert np.linalg.norm(undone - in_space) < 0.15 * np.linalg.norm(in_space)
+
+
 def test_bending_that_the_scalar_matrix_takes_for_stiff_is_undone_at_once(
     problem: InterpolationProblem, solved: Snapshots, wanted: FloatArray
 ) -> None:
