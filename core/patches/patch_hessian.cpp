@@ -1,6 +1,5 @@
 #include "patches/patch_hessian.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -50,9 +49,9 @@ PatchHessian::PatchHessian(const RigidPatches& patches, const double* u)
     : patches_(patches),
       positions_(patches.positions()),
       centers_(3 * static_cast<std::size_t>(patches.count()), 0.0),
-      slots_(patches.count(), -1),
-      dirichlet_(Eigen::MatrixXd::Zero(patches.dimension(), patches.dimension())),
-      rotations_(dirichlet_) {
+      dirichlet_(Square::Zero(patches.dimension(), patches.dimension())),
+      rotations_(dirichlet_),
+      slots_(patches.count(), -1) {
   const int vertices = patches.vertices();
   Vector mean = Vector::Zero();
   for (int i = 0; i < 3 * vertices; ++i) positions_[i] += u[i];
@@ -105,27 +104,17 @@ void PatchHessian::find_hats(const VertexStars& stars, int star) {
 /// with A = U^T dF L^T V. So a star feels three numbers of a motion in each part.
 void PatchHessian::add_stars(const std::vector<Part>& parts, int star) {
   find_hats(*parts[0].stars, star);
-  const auto touched = static_cast<Eigen::Index>(touched_.size());
-  felt_.resize(kMotions * touched, 3 * static_cast<Eigen::Index>(parts.size()));
-  weighted_.resize(felt_.rows(), felt_.cols());
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    add_rotation(parts[k], star, 3 * static_cast<Eigen::Index>(k));
-  products_.noalias() = weighted_ * felt_.transpose();
-  for (Eigen::Index a = 0; a < touched; ++a)
-    for (Eigen::Index b = 0; b < touched; ++b)
-      if (touched_[b] <= touched_[a])
-        rotations_.block<kMotions, kMotions>(kMotions * touched_[a], kMotions * touched_[b]) -=
-            products_.block<kMotions, kMotions>(kMotions * a, kMotions * b);
+  moments_.resize(touched_.size());
+  felt_.resize(touched_.size());
+  for (const Part& part : parts) add_rotation(part, star);
 }
 
-/// Sets what a star's rotation in a part feels of all motions.
-void PatchHessian::add_rotation(const Part& part, int star, Eigen::Index column) {
+void PatchHessian::add_rotation(const Part& part, int star) {
   using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
   const VertexStars& stars = *part.stars;
   const int first = stars.first_corner[star], count = stars.first_corner[star + 1] - first;
   const double* const gradients = &stars.gradients[3 * static_cast<std::size_t>(first)];
   Matrix F = Matrix::Zero();  // of the whole shape, since the hats sum to one
-  moments_.resize(touched_.size());
   for (std::size_t m = 0; m < touched_.size(); ++m) {
     moments_[m] = moments_of(count, gradients, &hats_[m * count]);
     F += moments_[m].bottomRows<3>();
@@ -137,10 +126,11 @@ void PatchHessian::add_rotation(const Part& part, int star, Eigen::Index column)
   const SignedSvd svd(S);
   const Matrix U = Eigen::Map<const Rows>(&svd.U[0][0]);
   const Matrix LV = L.transpose() * Eigen::Map<const Rows>(&svd.V[0][0]);
+  Vector weights;
   for (int p = 0; p < 3; ++p) {
     const int i = kOthers[p][0], j = kOthers[p][1];
     const double sum = std::max(svd.s[i] + svd.s[j], kLeastStretches);
-    const double weight = 2.0 * part.weight * stars.weights[star] / sum;
+    weights[p] = 2.0 * part.weight * stars.weights[star] / sum;
     const Matrix N = U.col(i) * LV.col(j).transpose() - U.col(j) * LV.col(i).transpose();
     for (std::size_t m = 0; m < touched_.size(); ++m) {
       const Vector shift = moments_[m].row(0), at = center(touched_[m]);
@@ -149,11 +139,16 @@ void PatchHessian::add_rotation(const Part& part, int star, Eigen::Index column)
         const Vector moved = moments_[m].col(k).tail<3>() - shift[k] * at;
         turn += moved.cross(Vector(N.col(k)));
       }
-      auto felt = felt_.block<kMotions, 1>(kMotions * static_cast<Eigen::Index>(m), column + p);
-      felt.head<3>() = N * shift;
-      felt.tail<3>() = turn;
+      felt_[m].col(p).head<3>() = N * shift;
+      felt_[m].col(p).tail<3>() = turn;
     }
-    weighted_.col(column + p) = weight * felt_.col(column + p);
+  }
+  for (std::size_t a = 0; a < touched_.size(); ++a) {
+    const Eigen::Matrix<double, 6, 3> weighted = felt_[a] * weights.asDiagonal();
+    for (std::size_t b = 0; b < touched_.size(); ++b)
+      if (touched_[b] <= touched_[a])
+        rotations_.block<kMotions, kMotions>(kMotions * touched_[a], kMotions * touched_[b]) -=
+            weighted * felt_[b].transpose();
   }
 }
 
@@ -237,15 +232,16 @@ void PatchHessian::hold_small_patches() {
       dirichlet_(kMotions * a + r, kMotions * a + r) += kLeast * sum / (3 * patches_.count());
 }
 
-Eigen::MatrixXd PatchHessian::inverse() {
+std::optional<online::DenseCholesky> PatchHessian::factor() {
   hold_translations();
   hold_small_patches();
-  const Eigen::Index d = patches_.dimension();
+  const int d = patches_.dimension();
+  online::DenseCholesky result(d);
   for (double shift = kShift; shift < kMostShift; shift *= kMoreShift) {
-    const Eigen::LLT<Eigen::MatrixXd> factor((1.0 + shift) * dirichlet_ + rotations_);
-    if (factor.info() == Eigen::Success) return factor.solve(Eigen::MatrixXd::Identity(d, d));
+    const Square sum = (1.0 + shift) * dirichlet_ + rotations_;
+    if (result.factor(sum.data(), d) < 0) return result;
   }
-  return Eigen::MatrixXd::Zero(d, d);  // the shape is not finite
+  return std::nullopt;
 }
 
 }  // namespace snapspace

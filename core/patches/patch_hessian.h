@@ -1,9 +1,11 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "energy/vertex_stars.h"
+#include "online/dense_cholesky.h"
 #include "patches/rigid_patches.h"
 
 namespace snapspace {
@@ -23,11 +25,11 @@ class PatchHessian {
   /// Adds the energy of parts, whose stars have the same corners. Weights may be negative.
   void add(const std::vector<Part>& parts);
 
-  /// The inverse (d x d). Translations of the whole surface have no energy; they are made as stiff
-  /// as those of single patches. Where the Hessian is not positive definite, a
-  /// multiple of the Dirichlet energy's is added, as Newton's method shifts Hessians (Nocedal &
-  /// Wright 2006, sec. 3.4).
-  [[nodiscard]] Eigen::MatrixXd inverse();
+  /// The Cholesky factor; none if the shape is not finite. Translations of the whole surface have
+  /// no energy; they are made as stiff as those of single patches. Where the Hessian is not
+  /// positive definite, a multiple of the Dirichlet energy's is added, as Newton's method shifts
+  /// Hessians (Nocedal & Wright 2006, sec. 3.4).
+  [[nodiscard]] std::optional<online::DenseCholesky> factor();
 
   /// Centers of the patches, three each.
   [[nodiscard]] const std::vector<double>& centers() const { return centers_; }
@@ -37,7 +39,8 @@ class PatchHessian {
  private:
   using Vector = Eigen::Vector3d;
   using Matrix = Eigen::Matrix3d;
-  using Homogeneous = Eigen::Vector4d;          // a hat times (1, x)
+  using Homogeneous = Eigen::Vector4d;  // a hat times (1, x)
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   using Moments = Eigen::Matrix<double, 4, 3>;  // sums of these (x) gradients over corners
 
   [[nodiscard]] Vector position(int vertex) const {
@@ -52,7 +55,7 @@ class PatchHessian {
     return hat * result;
   }
   void add_stars(const std::vector<Part>& parts, int star);
-  void add_rotation(const Part& part, int star, Eigen::Index column);
+  void add_rotation(const Part& part, int star);
   void add_couplings(const VertexStars& pattern, const std::vector<double>& couplings);
   void find_hats(const VertexStars& stars, int star);
   void hold_translations();
@@ -60,15 +63,14 @@ class PatchHessian {
 
   const RigidPatches& patches_;
   std::vector<double> positions_, centers_;
-  Eigen::MatrixXd dirichlet_, rotations_;  // their parts, lower triangles
-  // of a star: the patches that it touches, their hats at its corners, and what its rotations in
-  // all parts feel of their motions
+  Square dirichlet_, rotations_;  // their parts, lower triangles
+  // of a star: the patches that it touches, their hats at its corners, and what its rotation in a
+  // part feels of their motions
   std::vector<std::int32_t> touched_;
   std::vector<int> slots_;  // of patches in these; -1
   std::vector<Homogeneous> hats_;
   std::vector<Moments> moments_;
-  Eigen::MatrixXd felt_, weighted_;  // motions x 3 per part
-  Eigen::MatrixXd products_;         // motions x motions
+  std::vector<Eigen::Matrix<double, 6, 3>> felt_;
 };
 
 }  // namespace snapspace

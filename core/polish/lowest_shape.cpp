@@ -22,7 +22,9 @@ class WatchedObjective final : public LaneObjective<Real> {
                                                             const double* u) const override {
     return objective_->seed_near(input, u);
   }
-  void load_seed(int lane, const SampleSeed& seed) override { objective_->load_seed(lane, seed); }
+  void load_seed(int lane, std::shared_ptr<const SampleSeed> seed) override {
+    objective_->load_seed(lane, std::move(seed));
+  }
 
   Sum<Real> value_and_gradient(const Real* u, Real* gradient, SweepVisitor& visitor) override {
     const Sum<Real> value = objective_->value_and_gradient(u, gradient, visitor);

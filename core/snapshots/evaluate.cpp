@@ -49,8 +49,7 @@ class Evaluation {
     using Single = typename LaneObjective<Real>::Single;
     for (int lane = 0; lane < kWidth; ++lane) {
       const double* input = inputs + std::min(lane, count - 1) * system_.input_size();
-      const auto seed = objective_->seed_near(input, lane_of(shapes_, lane).data());
-      if (seed) objective_->load_seed(lane, *seed);
+      objective_->load_seed(lane, objective_->seed_near(input, lane_of(shapes_, lane).data()));
     }
     std::vector<Single> vectors(gradients_.size());
     for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = cast<float>(gradients_[i]);

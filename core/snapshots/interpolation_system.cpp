@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "energy/scalar_hessian.h"
+#include "patches/patch_hessian.h"
 #include "snapshots/lane_objectives.h"
 #include "threads/flush_denormals.h"
 #include "threads/parallel.h"

@@ -3,9 +3,10 @@
 
 #include "mesh/sweep.h"
 #include "simd/lanes.h"
-#include "snapshots/sample_seed.h"
 
 namespace snapspace {
+
+struct SampleSeed;
 
 /// The single-precision pack for the same samples, in which they are preconditioned. A number stays
 /// as it is.
@@ -37,8 +38,8 @@ class LaneObjective {
                                                                     const double* /*u*/) const {
     return nullptr;
   }
-  /// Gives a lane a seed that an objective of the same system has made.
-  virtual void load_seed(int /*lane*/, const SampleSeed& /*seed*/) {}
+  /// Gives a lane a seed that an objective of the same system has made, or none.
+  virtual void load_seed(int /*lane*/, std::shared_ptr<const SampleSeed> /*seed*/) {}
   /// F at u (3n). Its gradient overwrites `gradient`; the visitor sees only complete entries.
   virtual Sum<Real> value_and_gradient(const Real* u, Real* gradient, SweepVisitor& visitor) = 0;
   /// result = the seed of the inverse Hessian times vector, both 3n; they may be the same array.

@@ -21,8 +21,7 @@ template <class Real>
 void set_seed(LaneObjective<Real>& objective, int index, Lane& lane,
               const std::vector<double>& shape) {
   lane.seed = objective.seed_near(lane.sample->input.data(), shape.data());
-  if (!lane.seed) return;
-  objective.load_seed(index, *lane.seed);
+  objective.load_seed(index, lane.seed);
   lane.path = 0.0;
   lane.next_seed = std::max(Lane::kFirstRenewal, 2 * lane.iterations);
 }

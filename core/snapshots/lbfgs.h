@@ -95,7 +95,7 @@ class LaneLbfgs {
       lanes_[lane] = std::exchange(from.lanes_[source_lane], {});
       steps_.set(lane, from.steps_[source_lane]);
       objective_->load(lane, lanes_[lane].sample->input.data());
-      if (lanes_[lane].seed) objective_->load_seed(lane, *lanes_[lane].seed);
+      objective_->load_seed(lane, lanes_[lane].seed);
       pairs_[lane] = from.pairs_[source_lane];
       for (int i = 0; i < size_; ++i) trial_[i].set(lane, from.trial_[i][source_lane]);
     }

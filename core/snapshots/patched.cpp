@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "memory/streamed_vector.h"
+#include "patches/patch_hessian.h"
+#include "snapshots/sample_seed.h"
 
 namespace snapspace {
 
@@ -24,10 +27,10 @@ class PatchedObjective final : public LaneObjective<Real> {
         patches_(*system.patches()),
         objective_(std::move(objective)),
         positions_(system.size(), Single(0)),
-        centers_(3 * static_cast<std::size_t>(patches_.count()), Sum<Single>(0.0)),
-        inverse_(static_cast<std::size_t>(patches_.dimension()) * patches_.dimension(), Single(0)),
         sums_(patches_.dimension()),
-        motions_(sums_.size()) {}
+        motions_(sums_.size()),
+        one_(sums_.size()),
+        forces_(sums_.size()) {}
 
   [[nodiscard]] int size() const override { return objective_->size(); }
   [[nodiscard]] double negligible() const override { return objective_->negligible(); }
@@ -37,19 +40,17 @@ class PatchedObjective final : public LaneObjective<Real> {
                                                             const double* u) const override {
     PatchHessian hessian(patches_, u);
     system_.add_to(hessian, input);
-    const Eigen::MatrixXd inverse = hessian.inverse();
-    SampleSeed seed;
-    seed.positions.assign(hessian.positions().begin(), hessian.positions().end());
-    seed.centers = hessian.centers();
-    seed.inverse.assign(inverse.data(), inverse.data() + inverse.size());
-    return std::make_shared<const SampleSeed>(std::move(seed));
+    std::optional<online::DenseCholesky> factor = hessian.factor();
+    if (!factor) return nullptr;
+    const std::vector<double>& positions = hessian.positions();
+    return std::make_shared<const SampleSeed>(
+        SampleSeed{{positions.begin(), positions.end()}, hessian.centers(), std::move(*factor)});
   }
 
-  void load_seed(int lane, const SampleSeed& seed) override {
-    for (std::size_t i = 0; i < positions_.size(); ++i)
-      set_lane(positions_[i], lane, seed.positions[i]);
-    for (std::size_t i = 0; i < centers_.size(); ++i) set_lane(centers_[i], lane, seed.centers[i]);
-    for (std::size_t i = 0; i < inverse_.size(); ++i) set_lane(inverse_[i], lane, seed.inverse[i]);
+  void load_seed(int lane, std::shared_ptr<const SampleSeed> seed) override {
+    for (std::size_t i = 0; seed && i < positions_.size(); ++i)
+      set_lane(positions_[i], lane, seed->positions[i]);
+    seeds_[lane] = std::move(seed);
   }
 
   Sum<Real> value_and_gradient(const Real* u, Real* gradient, SweepVisitor& visitor) override {
@@ -88,28 +89,32 @@ class PatchedObjective final : public LaneObjective<Real> {
 
   /// Motions of the patches that these forces cause, about the mean; returns their product.
   Sum<Single> solve() {
-    const auto d = static_cast<std::size_t>(patches_.dimension());
-    for (std::size_t a = 0; a < d; a += kMotions) turn_about(&centers_[a / 2], &sums_[a], 3, 0, -1);
     Sum<Single> product(0.0);
-    for (std::size_t i = 0; i < d; ++i) {
-      const Single* const row = &inverse_[i * d];
-      Sum<Single> sum(0.0);
-      for (std::size_t j = 0; j < d; ++j) sum += widened(row[j]) * sums_[j];
-      motions_[i] = sum;
-      product += sum * sums_[i];
+    std::fill(motions_.begin(), motions_.end(), Sum<Single>(0.0));
+    for (int lane = 0; lane < Real::kWidth; ++lane) {
+      const SampleSeed* const seed = seeds_[lane].get();
+      if (!seed) continue;
+      const double* center = seed->centers.data();
+      for (std::size_t i = 0; i < one_.size(); ++i) one_[i] = sums_[i][lane];
+      for (std::size_t a = 0; a < one_.size(); a += kMotions)
+        add_cross(-1.0, center + a / 2, &one_[a], &one_[a + 3]);
+      forces_ = one_;
+      seed->factor.solve(one_.data(), one_.data());
+      double sum = 0.0;
+      for (std::size_t i = 0; i < one_.size(); ++i) sum += forces_[i] * one_[i];
+      product.set(lane, sum);
+      for (std::size_t a = 0; a < one_.size(); a += kMotions)
+        add_cross(1.0, center + a / 2, &one_[a + 3], &one_[a]);
+      for (std::size_t i = 0; i < one_.size(); ++i) motions_[i].set(lane, one_[i]);
     }
-    for (std::size_t a = 0; a < d; a += kMotions)
-      turn_about(&centers_[a / 2], &motions_[a], 0, 3, 1);
     return product;
   }
 
-  /// Adds sign * center x (three entries from `from`) to those from `to`.
-  static void turn_about(const Sum<Single>* c, Sum<Single>* entries, int to, int from, int sign) {
-    const Sum<Single> factor(static_cast<double>(sign));
-    const Sum<Single>* f = entries + from;
-    const Sum<Single> turned[3] = {c[1] * f[2] - c[2] * f[1], c[2] * f[0] - c[0] * f[2],
-                                   c[0] * f[1] - c[1] * f[0]};
-    for (int r = 0; r < 3; ++r) entries[to + r] += factor * turned[r];
+  /// to += sign * center x from
+  static void add_cross(double sign, const double* c, const double* from, double* to) {
+    to[0] += sign * (c[1] * from[2] - c[2] * from[1]);
+    to[1] += sign * (c[2] * from[0] - c[0] * from[2]);
+    to[2] += sign * (c[0] * from[1] - c[1] * from[0]);
   }
 
   void add_motions(Single* result) const {
@@ -136,9 +141,9 @@ class PatchedObjective final : public LaneObjective<Real> {
   const RigidPatches& patches_;
   std::unique_ptr<LaneObjective<Real>> objective_;
   StreamedVector<Single> positions_;
-  std::vector<Sum<Single>> centers_;
-  StreamedVector<Single> inverse_;           // B
+  std::shared_ptr<const SampleSeed> seeds_[Real::kWidth];
   std::vector<Sum<Single>> sums_, motions_;  // V^T vector, and B times it
+  std::vector<double> one_, forces_;         // those of a lane
 };
 
 }  // namespace

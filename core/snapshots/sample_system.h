@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "energy/block_hessian.h"
-#include "patches/patch_hessian.h"
+#include "patches/rigid_patches.h"
 #include "snapshots/numbering.h"
 #include "snapshots/pair_products.h"
 #include "snapshots/scalar_inverse.h"
@@ -17,6 +17,7 @@ struct HessianOptions {
   double threshold = 0.65;  ///< for Projection::stretches; the paper uses 0.5 to 0.8
 };
 
+class PatchHessian;
 template <class Real>
 class LaneObjective;
 class LaneObjectives;

@@ -1,12 +1,13 @@
 #pragma once
 #include "snapshots/coarse_space.h"
-#include "snapshots/lane_objectives.h"
 #include "snapshots/sample_queue.h"
 #include "snapshots/sample_system.h"
 #include "snapshots/soft_modes.h"
 #include "snapshots/solve_report.h"
 
 namespace snapspace {
+
+class LaneObjectives;
 
 /// What is added to the inverse of the scalar matrix: soft modes that all samples share, or the
 /// inverse Hessian of each sample on a coarse space, or else on the system's patches, if it has

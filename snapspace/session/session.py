@@ -154,7 +154,8 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         ----------
         iterations : int, default 10
             Largest number of iterations. On unseen samples ten leave two thirds of the error on the
-            Dragon, a third on the armadillo, a seventh on the helix.
+            Dragon, a third on the armadillo, a seventh on the helix, and a twentieth on surfaces of
+            a lion and a centaur, blended as rigidly as possible.
         tolerance : float, optional
             Converged when twice the decrease that the solver's model predicts is below this share
             of the objective. Default: that of the problem's snapshots.

@@ -25,7 +25,8 @@ class Predictions:
     With Hessians the seed of the fast solver is A^-1 + U B U^T, with the scalar factor's matrix A
     and the inverse Hessian B of each sample [two-level additive Schwarz: Dryja & Widlund 1990; a
     fixed inverse as the seed: Liu, Bouaziz, Kavan 2017]. A takes soft and smooth deformations to be
-    stiff; B knows how stiff they are. Newton's method has no seed.
+    stiff; B knows how stiff they are. It replaces the patches of blended surfaces, which know it as
+    well. Newton's method has no seed.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ ALLOWED: dict[str, set[str]] = {
     "energy": {"element", "material", "memory", "mesh", "simd", "threads"},
     "cholesky": {"memory", "simd"},
     "multigrid": {"cholesky", "dense", "memory", "simd"},
-    "patches": {"energy", "material", "mesh"},
+    "patches": {"energy", "material", "mesh", "online"},
     "snapshots": {
         "cholesky",
         "dense",
@@ -29,6 +29,7 @@ ALLOWED: dict[str, set[str]] = {
         "memory",
         "mesh",
         "multigrid",
+        "online",
         "patches",
         "simd",
         "threads",
