@@ -91,8 +91,8 @@ class Plan:
 
 
 #: For blends of generated and real poses the ratio is 2 to 14. Blends of surfaces are predicted:
-#: from a model's solutions, with its Hessians, held-out ones end half as far from the minimum, and
-#: the ratio of a model that predicts is near that of the first one (docs/notes/surface-blends.md).
+#: from a model's solutions held-out ones end near their only minimum, and the ratio of a model that
+#: predicts is near that of the first one (docs/notes/surface-blends.md).
 BLENDS = Plan(
     target=0.005,
     typical=lambda errors: float(np.mean(errors)),
