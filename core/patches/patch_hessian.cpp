@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "material/principal_curvature.h"
 #include "material/signed_svd.h"
 
 namespace snapspace {
@@ -16,8 +17,6 @@ constexpr int kMotions = RigidPatches::kMotions;
 constexpr double kShift = 3e-3, kMoreShift = 4.0, kMostShift = 1e6;
 /// Least sum of two stretches of a star: with less its rotation is hardly defined.
 constexpr double kLeastStretches = 0.05;
-
-constexpr int kOthers[3][2] = {{1, 2}, {0, 2}, {0, 1}};
 
 /// The sum of hat (x) gradient over corners. In a function of its own, because sums stay in
 /// registers there; even and odd ones do not wait for each other.
@@ -79,22 +78,32 @@ void PatchHessian::add(const std::vector<Part>& parts) {
   for (int star = 0; star < pattern.count(); ++star) add_stars(parts, star);
 }
 
-/// Sets the hats of all patches at the corners of a star, patch by patch.
-void PatchHessian::find_hats(const VertexStars& stars, int star) {
+void PatchHessian::forget_touched() {
   for (const std::int32_t patch : touched_) slots_[patch] = -1;
   touched_.clear();
-  const int first = stars.first_corner[star], count = stars.first_corner[star + 1] - first;
   hats_.clear();
+}
+
+/// The place of a patch among those touched; if it is a new one, it gets `count` hats of zero.
+std::size_t PatchHessian::touch(std::int32_t patch, int count) {
+  int& slot = slots_[patch];
+  if (slot < 0) {
+    slot = static_cast<int>(touched_.size());
+    touched_.push_back(patch);
+    hats_.resize(hats_.size() + count, Homogeneous::Zero());
+  }
+  return static_cast<std::size_t>(slot);
+}
+
+/// Sets the hats of all patches at the corners of a star, patch by patch.
+void PatchHessian::find_hats(const VertexStars& stars, int star) {
+  forget_touched();
+  const int first = stars.first_corner[star], count = stars.first_corner[star + 1] - first;
   for (int c = 0; c < count; ++c) {
     const int vertex = stars.corners[first + c];
     for (const auto* place = patches_.begin(vertex); place != patches_.end(vertex); ++place) {
-      int& slot = slots_[place->patch];
-      if (slot < 0) {
-        slot = static_cast<int>(touched_.size());
-        touched_.push_back(place->patch);
-        hats_.resize(hats_.size() + count, Homogeneous::Zero());
-      }
-      hats_[static_cast<std::size_t>(slot) * count + c] = homogeneous(vertex, place->hat);
+      const std::size_t slot = touch(place->patch, count);
+      hats_[slot * count + c] = homogeneous(vertex, place->hat);
     }
   }
 }
@@ -128,7 +137,7 @@ void PatchHessian::add_rotation(const Part& part, int star) {
   const Matrix LV = L.transpose() * Eigen::Map<const Rows>(&svd.V[0][0]);
   Vector weights;
   for (int p = 0; p < 3; ++p) {
-    const int i = kOthers[p][0], j = kOthers[p][1];
+    const int i = kPairs[p][0], j = kPairs[p][1];
     const double sum = std::max(svd.s[i] + svd.s[j], kLeastStretches);
     weights[p] = 2.0 * part.weight * stars.weights[star] / sum;
     const Matrix N = U.col(i) * LV.col(j).transpose() - U.col(j) * LV.col(i).transpose();
@@ -144,7 +153,7 @@ void PatchHessian::add_rotation(const Part& part, int star) {
     }
   }
   for (std::size_t a = 0; a < touched_.size(); ++a) {
-    const Eigen::Matrix<double, 6, 3> weighted = felt_[a] * weights.asDiagonal();
+    const Eigen::Matrix<double, kMotions, 3> weighted = felt_[a] * weights.asDiagonal();
     for (std::size_t b = 0; b < touched_.size(); ++b)
       if (touched_[b] <= touched_[a])
         rotations_.block<kMotions, kMotions>(kMotions * touched_[a], kMotions * touched_[b]) -=
@@ -159,17 +168,10 @@ void PatchHessian::add_couplings(const VertexStars& pattern, const std::vector<d
   std::vector<Eigen::Matrix4d> sums(static_cast<std::size_t>(count) * count,
                                     Eigen::Matrix4d::Zero());
   for (int i = 0; i < patches_.vertices(); ++i) {
-    for (const std::int32_t patch : touched_) slots_[patch] = -1;
-    touched_.clear();
-    hats_.clear();
+    forget_touched();
     const auto add = [&](int vertex, double coupling) {
       for (const auto* place = patches_.begin(vertex); place != patches_.end(vertex); ++place) {
-        int& slot = slots_[place->patch];
-        if (slot < 0) {
-          slot = static_cast<int>(touched_.size());
-          touched_.push_back(place->patch);
-          hats_.push_back(Homogeneous::Zero());
-        }
+        const std::size_t slot = touch(place->patch, 1);
         hats_[slot] += homogeneous(vertex, 2.0 * coupling * place->hat);
       }
     };

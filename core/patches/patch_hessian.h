@@ -57,6 +57,8 @@ class PatchHessian {
   void add_stars(const std::vector<Part>& parts, int star);
   void add_rotation(const Part& part, int star);
   void add_couplings(const VertexStars& pattern, const std::vector<double>& couplings);
+  void forget_touched();
+  std::size_t touch(std::int32_t patch, int count);
   void find_hats(const VertexStars& stars, int star);
   void hold_translations();
   void hold_small_patches();
@@ -70,7 +72,7 @@ class PatchHessian {
   std::vector<int> slots_;  // of patches in these; -1
   std::vector<Homogeneous> hats_;
   std::vector<Moments> moments_;
-  std::vector<Eigen::Matrix<double, 6, 3>> felt_;
+  std::vector<Eigen::Matrix<double, RigidPatches::kMotions, 3>> felt_;
 };
 
 }  // namespace snapspace

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -22,7 +24,7 @@ from snapspace import (
     solve_snapshots,
 )
 
-from .sheets import grid
+from .sheets import grid, rolled, sheet
 
 #: A radius of stars that is more than the edges of strips.
 WIDE = 0.1
@@ -100,3 +102,20 @@ def strip_problem(
         domain=HandleBox(translation=translation, angle=angle),
         material=material or StableNeoHookean(),
     )
+
+
+def rolled_strips(
+    *, turn: NDArray[np.float64] | None = None, **options: Any
+) -> InterpolationProblem:
+    """A strip, flat and rolled up in two directions, the whole turned."""
+    flat = sheet(24, 8, thickness=0.1)
+    shapes = [flat.vertices, rolled(flat.vertices, 1.5, 0.2), rolled(flat.vertices, -1.4, 1.2)]
+    meshes = [
+        ShellMesh(
+            x.reshape(-1, 3) @ (np.eye(3) if turn is None else turn.T),
+            flat.triangles,
+            thickness=flat.thickness,
+        )
+        for x in shapes
+    ]
+    return InterpolationProblem(meshes, **options)

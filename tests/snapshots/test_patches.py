@@ -24,6 +24,7 @@ from snapspace import _core as core
 from snapspace.mesh import mass_norm
 
 from ..shells.sheets import rolled, sheet
+from ..shells.strips import rolled_strips
 from .bars import assert_same_bits
 
 FloatArray = NDArray[np.float64]
@@ -31,24 +32,9 @@ TIGHT = SolverOptions(tolerance=1e-12, max_iterations=5000)
 EIGHT: dict[str, Any] = {"tolerance": 1e-300, "max_iterations": 8, "threads": 1}
 
 
-def strips(*, turn: FloatArray | None = None, **options: Any) -> InterpolationProblem:
-    """A strip, flat and rolled up in two directions, the whole turned."""
-    flat = sheet(24, 8, thickness=0.1)
-    shapes = [flat.vertices, rolled(flat.vertices, 1.5, 0.2), rolled(flat.vertices, -1.4, 1.2)]
-    meshes = [
-        ShellMesh(
-            x.reshape(-1, 3) @ (np.eye(3) if turn is None else turn.T),
-            flat.triangles,
-            thickness=flat.thickness,
-        )
-        for x in shapes
-    ]
-    return InterpolationProblem(meshes, **options)
-
-
 @pytest.fixture(scope="module")
 def problem() -> InterpolationProblem:
-    return strips()
+    return rolled_strips()
 
 
 @pytest.fixture(scope="module")
@@ -150,7 +136,7 @@ def test_turned_poses_take_as_many_evaluations(
     problem: InterpolationProblem, solved: Snapshots, wanted: FloatArray
 ) -> None:
     """Motions are those of the shape, in any frame of the same diagonal."""
-    other = strips(turn=np.eye(3)[[2, 0, 1]])
+    other = rolled_strips(turn=np.eye(3)[[2, 0, 1]])
     assert other.system.patches == problem.system.patches
     again = solve_snapshots(other, wanted, options=TIGHT)
     for report, expected in zip(again.reports, solved.reports, strict=True):
@@ -160,7 +146,7 @@ def test_turned_poses_take_as_many_evaluations(
 
 def test_extrapolated_blends_converge(problem: InterpolationProblem) -> None:
     """Parts of negative weight soften the others."""
-    outside = strips(extrapolation=0.5)
+    outside = rolled_strips(extrapolation=0.5)
     weights = np.array([[1.1, -0.1, 0.0], [0.55, 0.57, -0.12], [-0.1, 0.4, 0.7]])
     solved = solve_snapshots(outside, weights, options=TIGHT)
     assert solved.converged.all()
@@ -198,4 +184,4 @@ def test_a_polish_ends_near_the_full_solution_in_ten_iterations(
 
 
 def test_other_energies_have_none() -> None:
-    assert strips(material=StableNeoHookean()).system.patches == 0
+    assert rolled_strips(material=StableNeoHookean()).system.patches == 0

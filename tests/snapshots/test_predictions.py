@@ -13,7 +13,6 @@ from snapspace import (
     InterpolationModel,
     InterpolationProblem,
     Predictions,
-    ShellMesh,
     Snapshots,
     SolverOptions,
     predicted_solutions,
@@ -28,7 +27,7 @@ from snapspace.reduction import reduced_solutions
 from snapspace.session.predictions import STIFFER, TOLERANCE
 from snapspace.snapshots import positive_inverse
 
-from ..shells.sheets import rolled, sheet
+from ..shells.strips import rolled_strips
 from .bars import assert_same_bits
 
 FloatArray = NDArray[np.float64]
@@ -37,11 +36,7 @@ TIGHT = SolverOptions(tolerance=1e-12, max_iterations=5000)
 
 @pytest.fixture(scope="module")
 def problem() -> InterpolationProblem:
-    """A strip, flat and rolled up in two directions."""
-    flat = sheet(24, 8, thickness=0.1)
-    shapes = [flat.vertices, rolled(flat.vertices, 1.5, 0.2), rolled(flat.vertices, -1.4, 1.2)]
-    meshes = [ShellMesh(x.reshape(-1, 3), flat.triangles, thickness=flat.thickness) for x in shapes]
-    return InterpolationProblem(meshes)
+    return rolled_strips()
 
 
 @pytest.fixture(scope="module")
