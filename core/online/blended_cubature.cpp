@@ -110,7 +110,7 @@ double BlendedCubature::value_and_gradient(const double* q, double* gradient) {
   double values[2] = {0.0, 0.0};
   run_halves(rows_.size() < kMinSharedSize ? nullptr : half_runner_, [&](int half) {
     double value = 0.0;
-    for (int b = rows_.half_begin(half); b < rows_.half_begin(half + 1); ++b) {
+    for (const int b : rows_.half(half)) {
       Tets G[3][3], P[3][3];
       gradients(b, G);
       value += lane_sum(block_value_and_stress(b, G, P));
@@ -195,10 +195,7 @@ double BlendedCubature::derivatives(const double* q, double* gradient, double* h
   const double value = value_and_gradient(q, gradient);
   const auto d = static_cast<std::size_t>(dimension());
   std::fill_n(hessian, d * d, 0.0);
-  const auto curvatures = [this](int block, Tets C[9][9]) {
-    block_curvatures(block, C);
-    return true;
-  };
+  const auto curvatures = [this](int block, Tets C[9][9]) { block_curvatures(block, C); };
   add_block_hessians(rows_, half_runner_, second_half_, curvatures, hessian);
   return value;
 }

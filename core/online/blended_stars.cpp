@@ -16,8 +16,7 @@ BlendedStars::BlendedStars(int dimension, const PoseStars& stars)
       weights_(stars.poses, 0.0),
       areas_(rows_.tets()),
       origins_(9 * static_cast<std::size_t>(rows_.blocks()), Tets(0.0)),
-      moduli_(static_cast<std::size_t>(rows_.blocks()) * moduli_count_, Tets(0.0)),
-      idle_(rows_.blocks(), 1) {
+      moduli_(static_cast<std::size_t>(rows_.blocks()) * moduli_count_, Tets(0.0)) {
   const std::size_t size = static_cast<std::size_t>(dimension + 1) * (dimension + 1);
   forms_.assign(stars.forms, stars.forms + size * stars.poses);
   form_.assign(size, 0.0);
@@ -34,19 +33,27 @@ BlendedStars::BlendedStars(int dimension, const PoseStars& stars)
 }
 
 void BlendedStars::set_weights(const double* weights) {
-  std::copy_n(weights, poses(), weights_.data());
   const int stars = rows_.tets() / poses();
-  std::fill(idle_.begin(), idle_.end(), 1);
-  for (int pair = 0; pair < rows_.tets(); ++pair) {
-    const double weight = weights_[pair / stars];
-    const int block = pair / TetRows::kWidth;
-    moduli_[block * moduli_count_].set(pair % TetRows::kWidth, weight * areas_[pair]);
-    if (weight != 0.0) idle_[block] = 0;
+  for (int pose = 0; pose < poses(); ++pose) {
+    const double weight = weights[pose];
+    if (weight == weights_[pose]) continue;
+    for (int pair = pose * stars; pair < (pose + 1) * stars; ++pair)
+      moduli_[pair / TetRows::kWidth * moduli_count_].set(pair % TetRows::kWidth,
+                                                          weight * areas_[pair]);
   }
+  std::copy_n(weights, poses(), weights_.data());
+  rows_.set_active([&](int block) {
+    const int first = block * TetRows::kWidth, last = first + rows_.lanes(block) - 1;
+    return std::any_of(weights_.begin() + first / stars, weights_.begin() + last / stars + 1,
+                       [](double weight) { return weight != 0.0; });
+  });
   std::fill(form_.begin(), form_.end(), 0.0);
-  const double* pose = forms_.data();
-  for (const double weight : weights_)
-    for (double& entry : form_) entry += weight * *pose++;
+  for (int pose = 0; pose < poses(); ++pose) {
+    const double weight = weights_[pose];
+    if (weight == 0.0) continue;
+    const double* own = forms_.data() + pose * form_.size();
+    for (double& entry : form_) entry += weight * *own++;
+  }
 }
 
 void BlendedStars::gradients(int block, Tets G[3][3]) const {
@@ -74,8 +81,7 @@ double BlendedStars::value_and_gradient(const double* q, double* gradient) {
   double values[2] = {0.0, 0.0};
   run_halves(rows_.size() < kMinSharedSize ? nullptr : half_runner_, [&](int half) {
     double value = 0.0;
-    for (int b = rows_.half_begin(half); b < rows_.half_begin(half + 1); ++b) {
-      if (idle_[b]) continue;
+    for (const int b : rows_.half(half)) {
       Tets G[3][3], P[3][3];
       gradients(b, G);
       value += lane_sum(value_and_stress(kind_, moduli_.data() + b * moduli_count_, G, P));
@@ -107,11 +113,7 @@ double BlendedStars::derivatives(const double* q, double* gradient, double* hess
   const auto d = static_cast<std::size_t>(dimension()), stride = form_.size() / (capacity() + 1);
   for (std::size_t i = 0; i < d; ++i)
     for (std::size_t j = 0; j < d; ++j) hessian[i * d + j] = 2.0 * form_[i * stride + j];
-  const auto curvatures = [this](int block, Tets C[9][9]) {
-    if (idle_[block]) return false;
-    block_curvatures(block, C);
-    return true;
-  };
+  const auto curvatures = [this](int block, Tets C[9][9]) { block_curvatures(block, C); };
   add_block_hessians(rows_, half_runner_, second_half_, curvatures, hessian);
   return value;
 }

@@ -66,13 +66,12 @@ class BlendedStars {
   HalfRunner* half_runner_ = nullptr;
   std::vector<double> second_half_;  // of the blocks: their Hessian
   int kind_, moduli_count_;
-  std::vector<double> weights_;      // of the poses
-  std::vector<double> forms_;        // of the poses
-  std::vector<double> form_;         // their weighted sum
-  std::vector<double> areas_;        // pose, star: modulus times the area
-  std::vector<Tets> origins_;        // block, entry
-  std::vector<Tets> moduli_;         // block, modulus: times area and the pose's weight
-  std::vector<unsigned char> idle_;  // block: whether all its weights are zero
+  std::vector<double> weights_;  // of the poses
+  std::vector<double> forms_;    // of the poses
+  std::vector<double> form_;     // their weighted sum
+  std::vector<double> areas_;    // pose, star: modulus times the area
+  std::vector<Tets> origins_;    // block, entry
+  std::vector<Tets> moduli_;     // block, modulus: times area and the pose's weight
 };
 
 }  // namespace snapspace::online

@@ -8,11 +8,11 @@
 
 namespace snapspace::online {
 
-/// Adds the Hessian of all blocks to the lower triangle of `hessian` (d x d), half of them on each
-/// of two threads if there is a runner. Results are the same without it.
+/// Adds the Hessian of the active blocks to the lower triangle of `hessian` (d x d), half of them
+/// on each of two threads if there is a runner. Results are the same without it.
 /// @param second      work array for the second half, at least d x d
 /// @param curvatures  curvatures(block, C) sets the Hessians C of a block's elements by their
-///                    displacement gradients, or returns false if all are zero; on both threads
+///                    displacement gradients; on both threads
 template <class Curvatures>
 void add_block_hessians(const TetRows& rows, HalfRunner* runner, std::vector<double>& second,
                         const Curvatures& curvatures, double* hessian) {
@@ -20,9 +20,10 @@ void add_block_hessians(const TetRows& rows, HalfRunner* runner, std::vector<dou
   std::fill_n(second.begin(), d * d, 0.0);
   run_halves(runner, [&](int half) {
     double* const sum = half == 0 ? hessian : second.data();
-    for (int b = rows.half_begin(half); b < rows.half_begin(half + 1); ++b) {
+    for (const int b : rows.half(half)) {
       TetRows::Tets C[9][9];
-      if (curvatures(b, C)) rows.add_curvatures(b, C, sum);
+      curvatures(b, C);
+      rows.add_curvatures(b, C, sum);
     }
   });
   for (std::size_t i = 0; i < d; ++i)
@@ -30,7 +31,7 @@ void add_block_hessians(const TetRows& rows, HalfRunner* runner, std::vector<dou
 }
 
 /// Writes the Hessians of all elements by their displacement gradients, elements x 9 x 9.
-/// @param curvatures  as above, but it sets C in any case
+/// @param curvatures  as above
 template <class Curvatures>
 void store_block_curvatures(const TetRows& rows, const Curvatures& curvatures, float* to) {
   for (int b = 0; b < rows.blocks(); ++b) {

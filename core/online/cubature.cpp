@@ -28,7 +28,7 @@ double Cubature::value_and_gradient(const double* q, double* gradient) {
   double values[2] = {0.0, 0.0};
   run_halves(rows_.size() < kMinSharedSize ? nullptr : half_runner_, [&](int half) {
     double value = 0.0;
-    for (int b = rows_.half_begin(half); b < rows_.half_begin(half + 1); ++b) {
+    for (const int b : rows_.half(half)) {
       Tets G[3][3], P[3][3];
       rows_.gradients(b, G);
       value += lane_sum(value_and_stress(kind_, moduli_.data() + b * moduli_count_, G, P));
@@ -59,10 +59,7 @@ double Cubature::derivatives(const double* q, double* gradient, double* hessian)
   const double value = value_and_gradient(q, gradient);
   const auto d = static_cast<std::size_t>(dimension());
   std::fill_n(hessian, d * d, 0.0);
-  const auto curvatures = [this](int block, Tets C[9][9]) {
-    block_curvatures(block, C);
-    return true;
-  };
+  const auto curvatures = [this](int block, Tets C[9][9]) { block_curvatures(block, C); };
   add_block_hessians(rows_, half_runner_, second_half_, curvatures, hessian);
   return value;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace snapspace::online {
 
@@ -10,8 +11,10 @@ TetRows::TetRows(int dimension, int tets, const float* rows)
       dimension_(dimension),
       pairs_((dimension + 1) / 2),
       tets_(tets),
+      active_(blocks()),
       coordinates_(2 * pairs_, 0.0),
       sums_(4 * pairs_) {
+  std::iota(active_.begin(), active_.end(), 0);
   const std::size_t size = static_cast<std::size_t>(tets) * 9 * dimension;
   double largest = 1e-200;
   for (std::size_t i = 0; i < size; ++i) largest = std::max(largest, std::abs(double{rows[i]}));

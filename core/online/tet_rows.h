@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "simd/lanes.h"
@@ -27,16 +28,22 @@ class TetRows {
   /// @param rows  tets x 9 x dimension; entry 3 a + b of the second index is d u_a / d x_b
   TetRows(int dimension, int tets, const float* rows);
 
-  /// How many numbers an evaluation reads.
-  [[nodiscard]] std::size_t size() const {
-    return static_cast<std::size_t>(blocks()) * kWidth * 9 * pairs_;
-  }
+  /// How many words an evaluation reads.
+  [[nodiscard]] std::size_t size() const { return active_.size() * kWidth * 9 * pairs_; }
   [[nodiscard]] int dimension() const { return dimension_; }
   [[nodiscard]] int capacity() const { return capacity_; }
   [[nodiscard]] int tets() const { return tets_; }
   [[nodiscard]] int blocks() const { return (tets_ + kWidth - 1) / kWidth; }
   /// Number of tets in a block; the last block may have unused lanes.
   [[nodiscard]] int lanes(int block) const { return std::min(kWidth, tets_ - block * kWidth); }
+
+  /// Restricts evaluations to the blocks for which active(block) holds; initially to all.
+  template <class Active>
+  void set_active(Active active) {
+    active_.clear();
+    for (int block = 0; block < blocks(); ++block)
+      if (active(block)) active_.push_back(block);
+  }
 
   /// Restricts the maps to the first coordinates, 1 <= dimension <= capacity.
   void set_dimension(int dimension);
@@ -45,8 +52,11 @@ class TetRows {
   void begin(const double* q);
   /// Displacement gradients of a block's tets at q.
   void gradients(int block, Tets G[3][3]) const;
-  /// First block of a half, 0 or 1; for 2, the end of the blocks.
-  [[nodiscard]] int half_begin(int half) const { return half * blocks() / 2; }
+  /// The blocks of a half, 0 or 1, of the evaluation.
+  [[nodiscard]] std::span<const int> half(int half) const {
+    const std::size_t middle = active_.size() / 2;
+    return half == 0 ? std::span(active_).first(middle) : std::span(active_).subspan(middle);
+  }
   /// Adds the forces of a block's stresses to those of its half.
   void add_stresses(int half, int block, const Tets P[3][3]);
   /// Writes the sum of all forces (d), of both halves.
@@ -62,6 +72,7 @@ class TetRows {
   int capacity_, dimension_;
   int pairs_;  // of modes, for the current dimension
   int tets_;
+  std::vector<int> active_;  // blocks, ascending
   std::vector<Tets>
       words_;  // block, pair of modes, entry of G; an odd last mode is paired with zeros
   std::vector<double> coordinates_;  // q, and a zero if d is odd

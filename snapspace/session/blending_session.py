@@ -17,6 +17,7 @@ from .frame_report import FrameReport
 from .full_loop import FullBlendingLoop
 from .given_coordinates import given_coordinates
 from .posing_loop import SINGLE_CUBATURE
+from .sample_values import SampleValues
 from .session import Session
 from .trajectory import between_rows, keyed
 
@@ -35,9 +36,11 @@ class BlendingSession(Session[InterpolationModel]):
 
     Notes
     -----
-    A solve starts from the last frame's shape or from the nearest training sample, whichever has
-    the lower energy: from far away a descent could end in another minimum. A drag along a straight
-    line starts from the shape that its last three frames predict.
+    A jump, to weights that are nearer to a training sample than to the last frame, starts from that
+    sample or from the last frame, whichever has the lower energy: from far away a descent could end
+    in another minimum. A drag starts from the last frame, and along a straight line from the shape
+    that its last three frames predict; where it ends above the nearest sample, it is solved again
+    from there.
 
     Examples
     --------
@@ -48,6 +51,7 @@ class BlendingSession(Session[InterpolationModel]):
 
     default_tolerance = 1e-9
     _weights: FloatArray
+    _sample_values: SampleValues | None = None
 
     @property
     def weights(self) -> FloatArray:
@@ -76,8 +80,7 @@ class BlendingSession(Session[InterpolationModel]):
         w = self.model.problem.weights(weights, extrapolate=extrapolate)
         before, shape = self._weights, self.q
         self._set_weights(w)
-        start = self._start()
-        report = replace(self.solve(), start=start)
+        report = self._solve_from(before)
         if np.linalg.norm(self.q) > FARTHEST * self.model.coordinate_scale:
             report = replace(report, status="unbounded")
         if report.status in ("unbounded", "not_finite"):
@@ -200,19 +203,37 @@ class BlendingSession(Session[InterpolationModel]):
         self._weights = weights
         self._loop.set_weights(weights)
 
-    def _start(self) -> str:
-        """Starts from the nearest training sample if its energy is below the current one."""
+    def _solve_from(self, before: FloatArray) -> FrameReport:
+        """Solves from the last frame, which has the weights `before`, or the nearest sample."""
         if not len(self.model.training_parameters):
-            return "last frame"
+            return self.solve()
         with np.errstate(over="ignore"):  # weights far beyond any use
             away = ((self.model.training_parameters - self._weights) ** 2).sum(axis=1)
-        candidate = self.model.training_coordinates[np.argmin(away), : self.dimension]
-        current, _ = self._loop.value_and_gradient(self._loop.q)
-        sampled, _ = self._loop.value_and_gradient(candidate)
-        if current <= sampled:
-            return "last frame"
+            moved = ((before - self._weights) ** 2).sum()
+        nearest = int(np.argmin(away))
+        candidate = self.model.training_coordinates[nearest, : self.dimension]
+        seconds = 0.0
+        if away[nearest] < moved:
+            current, _ = self._loop.value_and_gradient(self._loop.q)
+            if current <= self._loop.value_and_gradient(candidate)[0]:
+                return self.solve()
+        else:
+            report = self.solve()
+            margin = self.tolerance * (self.model.value_scale + abs(report.value))
+            if report.value - margin <= self._values_of_samples()(nearest, self._weights):
+                return report
+            seconds = report.seconds
         self._loop.q = candidate
-        return "sample"
+        report = self.solve()
+        return replace(report, seconds=seconds + report.seconds, start="sample")
+
+    def _values_of_samples(self) -> SampleValues:
+        values = self._sample_values
+        if values is None or values.dimension != self.dimension:
+            coordinates = self.model.training_coordinates[:, : self.dimension]
+            values = SampleValues(self._loop, coordinates, len(self._weights))
+            self._sample_values = values
+        return values
 
     def _state(self) -> FloatArray:
         return self._weights

@@ -3,6 +3,7 @@ import { Certifier, type Certificate } from "./certificate.ts";
 import { Core, type FrameReport, type Termination } from "./core.ts";
 import type { BlendingModel } from "./model.ts";
 import { IDENTITY } from "./motion.ts";
+import { SampleValues } from "./sample_values.ts";
 import { TimeSteps } from "./time_steps.ts";
 import { weightEnds, type WeightEnds } from "./weight_ends.ts";
 
@@ -19,6 +20,7 @@ export class BlendingSession {
   /** Frequency and damping of `step`. */
   readonly time: TimeSteps;
   #weights: number[] = [];
+  #samples: SampleValues | null = null;
 
   static async create(module: WebAssembly.Module, model: BlendingModel): Promise<BlendingSession> {
     return new BlendingSession(model, await Core.create(module, model));
@@ -61,8 +63,7 @@ export class BlendingSession {
     const shape = this.q;
     this.#set(weights);
     if (start) this.#core.q = start;
-    this.#startBest();
-    const report = this.solve();
+    const report = this.#solveFrom(start ? null : before);
     if (Math.hypot(...this.q) > FARTHEST * this.model.coordinateScale) report.status = "unbounded";
     if (report.status === "unbounded" || report.status === "not_finite") {
       this.#set(before);
@@ -143,19 +144,44 @@ export class BlendingSession {
     this.#weights = [...weights];
   }
 
-  /** Takes the nearest training sample as the start if its energy is below the present one. */
-  #startBest(): void {
-    const { sampleWeights, sampleCoordinates, poses, dimension } = this.model;
-    const samples = sampleWeights.length / poses.length;
-    if (samples === 0) return;
-    let [nearest, least] = [0, Infinity];
-    for (let sample = 0; sample < samples; sample++) {
-      let away = 0;
-      this.#weights.forEach((w, pose) => (away += (sampleWeights[sample * poses.length + pose] - w) ** 2));
+  /** Solves from the present shape or from the nearest training sample. A jump, to weights that are nearer to that
+   * sample than to those before, starts where the energy is lower. A drag that ends above the sample is solved again
+   * from there. */
+  #solveFrom(before: readonly number[] | null): FrameReport {
+    const [nearest, away] = this.#nearestSample();
+    if (nearest < 0) return this.solve();
+    const samples = this.#sampleValues();
+    let milliseconds = 0;
+    if (!before || away < squaredDistance(before, 0, this.#weights)) {
+      if (this.#core.value(this.q) <= this.#core.value(samples.coordinates(nearest))) return this.solve();
+    } else {
+      const report = this.solve();
+      const margin = this.#stop.tolerance * (this.#stop.valueScale + Math.abs(report.value));
+      if (report.value - margin <= samples.at(nearest, this.#weights)) return report;
+      milliseconds = report.milliseconds;
+    }
+    this.#core.q = samples.coordinates(nearest);
+    const report = this.solve();
+    return { ...report, milliseconds: milliseconds + report.milliseconds };
+  }
+
+  /** The sample with the nearest weights, and its squared distance; -1 if there are no samples. */
+  #nearestSample(): [number, number] {
+    const { sampleWeights, poses } = this.model;
+    let [nearest, least] = [-1, Infinity];
+    for (let sample = 0; sample * poses.length < sampleWeights.length; sample++) {
+      const away = squaredDistance(sampleWeights, sample * poses.length, this.#weights);
       if (away < least) [nearest, least] = [sample, away];
     }
-    const start = nearest * dimension;
-    const candidate = sampleCoordinates.subarray(start, start + this.dimension);
-    if (!(this.#core.value(this.q) <= this.#core.value(candidate))) this.#core.q = candidate;
+    return [nearest, least];
   }
+
+  #sampleValues(): SampleValues {
+    if (this.#samples?.dimension !== this.dimension) this.#samples = new SampleValues(this.#core, this.model);
+    return this.#samples;
+  }
+}
+
+function squaredDistance(from: ArrayLike<number>, first: number, to: readonly number[]): number {
+  return to.reduce((sum, x, i) => sum + (from[first + i] - x) ** 2, 0);
 }

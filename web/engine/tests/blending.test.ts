@@ -6,6 +6,7 @@ import { certainRange } from "../certain_range.ts";
 import { Core } from "../core.ts";
 import type { BlendingModel } from "../model.ts";
 import { readModel } from "../read_model.ts";
+import { SampleValues } from "../sample_values.ts";
 import { reconstruct } from "../shape_space.ts";
 import { weightEnds } from "../weight_ends.ts";
 import { bytes, core, distance, expected, isCertificate } from "./expected.ts";
@@ -99,3 +100,23 @@ test("where no certain range is known weights go as far as was sampled", () => {
   assert.equal(certainRange(model), null);
   assert.deepEqual(weightEnds({ ...model, lowestWeight: -0.1 }, null, [0, 1, 2], 0), [-0.1, 1.2]);
 });
+
+for (const name of ["blending", "blending-cubature", "blending-arap"])
+  test(`energies of samples are sums over the poses: ${name}`, async () => {
+    const model = readModel(bytes(`${name}.packed`), "poses") as BlendingModel;
+    const made = await Core.create(core, model);
+    const values = new SampleValues(made, model);
+    const ofAll = [0.2, 0.5, 0.3];
+    for (const weights of [[1, 0, 0], ofAll, [0, 0.4, 0.6], ofAll]) {
+      made.setWeights(weights);
+      const known = made.value(values.coordinates(2));
+      assert.ok(Math.abs(values.at(2, weights) - known) < 1e-11 * (made.valueScale + Math.abs(known)));
+      assert.equal(made.value(values.coordinates(2)), known, "the core keeps its weights");
+    }
+    made.setWeights(ofAll);
+    const evaluate = made.value.bind(made);
+    let evaluations = 0;
+    made.value = (q) => (evaluations++, evaluate(q));
+    values.at(2, ofAll);
+    assert.equal(evaluations, 0, "known samples cost nothing");
+  });
