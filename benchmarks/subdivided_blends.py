@@ -30,6 +30,7 @@ from numpy.typing import NDArray
 import snapspace as ss
 from snapspace.accurate.model_search import ModelSearch, SearchOptions
 from snapspace.accurate.solving import Solving
+from snapspace.material import BLEND_RADIUS
 
 FloatArray = NDArray[np.float64]
 
@@ -166,7 +167,7 @@ def main() -> None:
     parser.add_argument("--set", choices=blend_paths.SETS, default="lion")
     parser.add_argument("--parts", type=int, nargs="+", default=[1, 10], help="of every edge")
     parser.add_argument("--poses", type=int, default=2, help="the first ones of the set")
-    parser.add_argument("--radius", type=float, default=0.02, help="of the stars")
+    parser.add_argument("--radius", type=float, default=BLEND_RADIUS, help="of the stars")
     parser.add_argument("--target-error", type=float, metavar="SHARE")
     parser.add_argument("--most-samples", type=int, default=20)
     parser.add_argument("--frames", type=int, default=600)

@@ -9,9 +9,9 @@ import click
 
 from ..material import (
     ARAP,
+    BLEND_RADIUS,
     DEFAULT_MATERIAL,
     MATERIALS,
-    SURFACE_RADIUS,
     Material,
     default_material,
     material_class,
@@ -36,7 +36,7 @@ _OPTIONS = (
         metavar="SHARE",
         help=f"With --shell and {ARAP.kind}: radius of the neighbourhoods that are rigid, relative "
         "to the diagonal. Smaller parts are blended linearly; 0 are the triangles around each "
-        f"vertex, which bend more easily the finer a surface is [default: {SURFACE_RADIUS}].",
+        f"vertex, which bend more easily the finer a surface is [default: {BLEND_RADIUS}].",
     ),
 )
 
@@ -59,7 +59,7 @@ def blend_material(
         For a material that a shell cannot have, options on the command line that do not go with
         `--shell`, or a radius of another material.
     """
-    chosen = kind or default_material(surface=shell).kind
+    chosen = kind or default_material(surface=shell, blended=True).kind
     if shell:
         check_shell_options(chosen)
     rigid = shell and chosen == ARAP.kind
@@ -69,5 +69,5 @@ def blend_material(
             f"--material {ARAP.kind} as well, or leave it out"
         )
     if rigid:
-        return ARAP(mu=mu, radius=SURFACE_RADIUS if radius is None else radius)
+        return ARAP(mu=mu, radius=BLEND_RADIUS if radius is None else radius)
     return material_class(chosen).from_lame(lam=lam, mu=mu)

@@ -1,6 +1,6 @@
 """Materials: elastic densities and their moduli."""
 
-from .arap import ARAP, SURFACE_RADIUS
+from .arap import ARAP, BLEND_RADIUS, SURFACE_RADIUS
 from .corotational import Corotational
 from .material import Material
 from .materials import (
@@ -17,6 +17,7 @@ from .symmetric_dirichlet import SymmetricDirichlet
 
 __all__ = [
     "ARAP",
+    "BLEND_RADIUS",
     "DEFAULT_MATERIAL",
     "MATERIALS",
     "SURFACE_RADIUS",

@@ -9,9 +9,12 @@ from typing import ClassVar
 from .material import SETTING
 from .shear_material import ShearMaterial
 
-#: Radius of the stars of surfaces whose material is not named. Chosen on one set of poses: full
-#: solutions are unique with it, and small parts keep most of their areas.
+#: Radius of the stars of posed surfaces whose material is not named.
 SURFACE_RADIUS = 0.02
+#: The same of blended surfaces: the least with which all paths between poses were continuous and
+#: the same both ways on the sets that chose it, see docs/notes/surface-blends.md. Smaller stars
+#: have two minima where a part turns by half a turn from pose to pose.
+BLEND_RADIUS = 0.05
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -31,7 +34,7 @@ class ARAP(ShearMaterial):
         everywhere with 0, the neighbourhoods are those of all vertices, with the triangles around
         each: spokes and rims (Sorkine, Alexa 2007). Larger ones are like the rotation clusters of
         Jacobson, Baran, Kavan, Popovic, Sorkine 2012. Parts smaller than twice the radius are
-        blended linearly; surfaces of no other material have 0.02.
+        blended linearly. Where no material is named, posed surfaces have 0.02, blended ones 0.05.
 
     Raises
     ------

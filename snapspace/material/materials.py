@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .arap import ARAP, SURFACE_RADIUS
+from .arap import ARAP, BLEND_RADIUS, SURFACE_RADIUS
 from .corotational import Corotational
 from .material import Material
 from .mooney_rivlin import MooneyRivlin
@@ -29,9 +29,11 @@ def material_class(kind: str) -> type[Material]:
     return MATERIALS[kind]
 
 
-def default_material(*, surface: bool) -> Material:
-    """What a body is made of where the user names no material."""
-    return ARAP(radius=SURFACE_RADIUS) if surface else DEFAULT_MATERIAL()
+def default_material(*, surface: bool, blended: bool = False) -> Material:
+    """What a body, posed or blended, is made of where the user names no material."""
+    if not surface:
+        return DEFAULT_MATERIAL()
+    return ARAP(radius=BLEND_RADIUS if blended else SURFACE_RADIUS)
 
 
 def checked_material(material: Any, count: int, who: str) -> Material:

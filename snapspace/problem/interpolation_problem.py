@@ -42,14 +42,13 @@ class InterpolationProblem:
     ----------
     poses : Poses or ShellPoses, or a sequence of TetMesh or of ShellMesh
         Two or more; each may be in its own frame.
-    material : Material, default StableNeoHookean(lam=1, mu=1), of shells ARAP(radius=0.02)
+    material : Material, default StableNeoHookean(lam=1, mu=1), of shells ARAP(radius=0.05)
         Any of `MATERIALS`; of shells ARAP, StableNeoHookean or StVK. Moduli are numbers, or arrays
         with one number per tet or triangle. Blends of ARAP are unique where others crumple, see
         docs/materials.md.
     extrapolation : float, default 0
         Samples also come from outside the simplex, which is enlarged by this share about its
-        centre. F may have no minimum for negative weights; such samples are reported as not
-        converged.
+        centre. There F may have no minimum, and such samples are reported as not converged.
     mean_shape : array_like, (3n,), optional
         If it is known, as from a model file. Default: solved for when it is first needed.
 
@@ -73,8 +72,9 @@ class InterpolationProblem:
         mean_shape: ArrayLike | None = None,
     ) -> None:
         self.poses = as_poses(poses)
-        made_of = material or default_material(surface=isinstance(self.mesh, ShellMesh))
-        self.material = checked_material(made_of, len(self.mesh.cells), "InterpolationProblem")
+        mesh = self.mesh
+        usual = default_material(surface=isinstance(mesh, ShellMesh), blended=True)
+        self.material = checked_material(material or usual, len(mesh.cells), "InterpolationProblem")
         self.domain = Simplex(corners=len(self.poses), extrapolation=extrapolation)
         if mean_shape is not None:
             self.mean_shape = checked_mean_shape(mean_shape, len(self.base))

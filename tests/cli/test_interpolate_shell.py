@@ -75,7 +75,7 @@ def test_seams_of_texture_coordinates_are_no_cuts(run: Run, tmp_path: Path) -> N
     model_path = tmp_path / "m.snapspace"
     run("interpolate", *paths, "--shell", 0.1, "--samples", 4, "--dimension", 1, "-o", model_path)
     model = load(model_path)
-    assert model.problem.material == ARAP(radius=0.02), "as rigid as possible by default"
+    assert model.problem.material == ARAP(radius=0.05), "as rigid as possible by default"
     assert len(model.problem.mesh.vertices) == 4
     assert len(model.surface.corners) == 6
 
