@@ -140,8 +140,8 @@ def interpolation_traits(
     shapes move along them in steps too short for settling to be recognised: the tolerance must be
     tight. Halfway between distant poses a blend of solutions shrinks and turns inside out.
 
-    Surfaces as rigid as possible have patches in their seed: they take 35 to 55 evaluations, from
-    starts of a model 16 to 40, and are as near to the minimum with 1e-7 as with 1e-9. Four Lions of
+    Surfaces as rigid as possible have patches in their seed: they take 25 to 37 evaluations, from
+    starts of a model 14 to 28, and are as near to the minimum with 1e-7 as with 1e-9. Four Lions of
     tets take 35 with a model's starts and 33 with its Hessians.
     """
     return SolverTraits(
