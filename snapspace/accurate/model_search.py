@@ -228,7 +228,7 @@ class ModelSearch:
         near = old.near_solutions(self.samples.parameters[training], threads=solving.threads)
         basis = near.joined(old.shapes)
         self.samples.begin_with(old.shapes, near)
-        most = min(plan.most_dimensions, old.dimension + len(near) // 2, len(basis) - 1)
+        most = min(plan.most_dimensions, old.dimension + len(near) // 2)
         self._first = self._model(basis, most, near)
         return near
 
@@ -271,8 +271,8 @@ class ModelSearch:
         """A model of at most a dimension; `trained` are those that train it, default all."""
         self._begins("subspace")
         self._finish_parts()
-        most = spanned_dimension(snapshots)
-        subspace = snapshot_pca(snapshots, dimension=min(dimension, most))
+        snapshots = snapshots.with_gram(threads=self._solving.threads)
+        subspace = snapshot_pca(snapshots, dimension=min(dimension, spanned_dimension(snapshots)))
         self._begins("energy")
         return reduce(
             self.samples.problem,

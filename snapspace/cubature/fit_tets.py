@@ -119,7 +119,7 @@ def fit_tets(
         seed=seed,
         threads=threads,
     )
-    picks, factors = nonnegative_fit(rows.columns, rows.target, count, threads=threads)
+    picks, factors = nonnegative_fit(rows.columns, rows.target, count, seed=seed, threads=threads)
     if not len(picks):
         raise ValueError(
             f"reduce: no tet carries a force at the {len(states)} snapshots that train a cubature; "

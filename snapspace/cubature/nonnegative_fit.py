@@ -14,7 +14,7 @@ FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.intp]
 
 #: Share of the wanted columns that are added before the weights are recomputed.
-BATCH = 0.1
+BATCH = 0.2
 #: Share that may be missing at the end: the last columns would take as many rounds as all others.
 MISSING = 0.02
 #: Added to the diagonal of the scaled normal equations: nearly equal columns share a weight.
@@ -27,14 +27,17 @@ def nonnegative_fit(
     target: FloatArray,
     count: int,
     *,
+    seed: int = 0,
     threads: int | None = None,
 ) -> tuple[IndexArray, FloatArray]:
     """Least squares with at most `count` positive weights.
 
     Greedy cubature (An, Kim, James 2008) as orthogonal matching pursuit with positive weights
-    (Bruckstein, Elad, Zibulevsky 2008): each step adds a batch of columns, those with the largest
-    products with the residual. Then all weights are recomputed by non-negative least squares
-    (Lawson & Hanson 1974), which may remove columns again.
+    (Bruckstein, Elad, Zibulevsky 2008): each step adds a batch of columns, drawn at random in
+    proportion to their positive products with the residual. Then all weights are recomputed by
+    non-negative least squares (Lawson & Hanson 1974), which may remove columns again.
+    The columns with the largest products are much alike, so that one of them makes most others
+    superfluous: in batches of these two thirds are removed at once, and fits take twice as long.
     Products are not divided by the columns' norms, so that tets that hardly carry a force cannot
     get huge weights.
 
@@ -46,6 +49,8 @@ def nonnegative_fit(
         The vector to fit.
     count : int, >= 1
         Most columns to choose.
+    seed : int, default 0
+        Seed of the random batches.
     threads : int, optional
         Default: all. The result is bitwise the same for any number.
 
@@ -61,11 +66,11 @@ def nonnegative_fit(
     weights: FloatArray = np.zeros(0)
     residual = target
     batch = max(1, round(BATCH * count))
-    best = np.inf
+    best, rng = np.inf, np.random.default_rng(seed)
     while count - len(chosen) > MISSING * count:
         products = fit.candidate_products(residual)
         products[chosen] = 0.0
-        fresh = _largest(products, min(batch, count - len(chosen)))
+        fresh = drawn(products, min(batch, count - len(chosen)), rng)
         chosen = np.concatenate([chosen, fresh])
         fit.add(fresh)
         start = np.concatenate([weights, np.zeros(len(fresh))])
@@ -143,7 +148,13 @@ def _settled(matrix: FloatArray, moments: FloatArray, solution: FloatArray) -> F
     return settled if (settled[free] > 0).all() else solution
 
 
-def _largest(products: NDArray[np.float32], count: int) -> IndexArray:
-    """Indices of the largest positive entries, at most `count`, ascending."""
-    largest = np.argpartition(-products, count - 1)[:count]
-    return np.sort(largest[products[largest] > 0])
+def drawn(products: NDArray[np.float32], count: int, rng: np.random.Generator) -> IndexArray:
+    """Indices of at most `count` positive entries, drawn in proportion to these, ascending.
+
+    Each entry is the rate of an event; its waiting time is exponential, and the earliest events
+    are a weighted sample without repetition (Efraimidis & Spirakis 2006).
+    """
+    positive = np.flatnonzero(products > 0)
+    times = rng.exponential(size=len(products))[positive] / products[positive]
+    first = np.argsort(times, kind="stable")[:count]
+    return np.sort(positive[first])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -126,6 +126,14 @@ class Snapshots:
     def usable(self) -> NDArray[np.bool_]:
         """Mask (k,) of the samples for a basis and for starts: converged ones and carried ones."""
         return np.array([r.converged or r.carried for r in self.reports], dtype=bool)
+
+    def with_gram(self, *, threads: int | None = None) -> Snapshots:
+        """The same with `gram`, which is computed where it is not known, on all threads or some."""
+        if self.gram is not None:
+            return self
+        gram = SnapshotGram.of(self.problem)
+        gram.add(self.displacements, threads=threads or 0)
+        return replace(self, gram=gram)
 
     def select(self, which: NDArray[np.bool_]) -> Snapshots:
         """The samples selected by a mask (k,); displacements are shared, not copied."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
-from snapspace.cubature.nonnegative_fit import nonnegative_fit, nonnegative_weights
+from snapspace.cubature.nonnegative_fit import drawn, nonnegative_fit, nonnegative_weights
 
 FloatArray = NDArray[np.float64]
 
@@ -86,3 +87,49 @@ def test_the_result_is_not_worse_than_the_start() -> None:
     x = nonnegative_weights(A.T @ A, A.T @ target, start)
     assert (x >= 0).all()
     assert np.linalg.norm(A @ x - target) <= np.linalg.norm(A @ start - target)
+
+
+def test_columns_are_drawn_in_proportion_to_their_products() -> None:
+    products = np.array([1.0, 0.0, 2.0, -3.0, 4.0], np.float32)
+    rng = np.random.default_rng(0)
+    draws = 7000
+    counts = np.bincount([drawn(products, 1, rng)[0] for _ in range(draws)], minlength=5)
+    expected = draws * np.array([1, 0, 2, 0, 4]) / 7
+    assert counts == pytest.approx(expected, abs=4 * np.sqrt(draws / 4))  # four deviations
+    assert counts[1] == counts[3] == 0
+
+
+@given(st.integers(0, 1000), st.integers(0, 30))
+def test_no_column_is_drawn_twice_and_none_without_a_product(seed: int, count: int) -> None:
+    rng = np.random.default_rng(seed)
+    products = rng.normal(size=20).astype(np.float32)
+    some = drawn(products, count, rng)
+    assert len(some) == min(count, (products > 0).sum())
+    assert (np.diff(some) > 0).all() and (products[some] > 0).all()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_columns_that_are_alike_do_not_fill_the_batches(
+    seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Forty kinds of columns, fifty of each: with the largest products it takes over 30 rounds."""
+    rng = np.random.default_rng(seed)
+    kinds = np.abs(rng.normal(size=(40, 120))) * np.exp(rng.normal(size=(40, 1)))
+    alike = np.repeat(kinds, 50, axis=0) * (1 + 0.05 * rng.normal(size=(2000, 120)))
+    candidates = alike.astype(np.float32)
+    target = candidates.sum(axis=0, dtype=float)
+    solve = Mock(wraps=nonnegative_weights)
+    monkeypatch.setattr("snapspace.cubature.nonnegative_fit.nonnegative_weights", solve)
+    chosen, weights = nonnegative_fit(candidates, target, 60, seed=seed)
+    error = np.linalg.norm(weights @ candidates[chosen].astype(float) - target)
+    assert error < 0.01 * np.linalg.norm(target)
+    assert solve.call_count <= 15
+
+
+def test_a_seed_gives_the_same_choice_on_any_number_of_threads() -> None:
+    A = np.abs(columns(200, 1500)).T.copy()
+    target = A.sum(axis=0, dtype=float)
+    one, two = (nonnegative_fit(A, target, 60, seed=3, threads=t) for t in (1, 2))
+    np.testing.assert_array_equal(one[0], two[0])
+    np.testing.assert_array_equal(one[1], two[1])
+    assert not np.array_equal(one[0], nonnegative_fit(A, target, 60, seed=4)[0])

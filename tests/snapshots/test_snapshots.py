@@ -72,3 +72,14 @@ def test_the_summary_counts_carried_snapshots_separately(
         f"at most {most} inverted tets"
     )
     assert from_before.summary() == "3 carried, at most 0 inverted tets"
+
+
+def test_a_gram_matrix_is_computed_once_and_gives_the_same_basis(
+    fresh: Snapshots, from_before: Snapshots
+) -> None:
+    both = fresh.joined(from_before)
+    assert both.gram is None
+    known = both.with_gram(threads=1)
+    assert known.gram is not None and known.with_gram() is known
+    alone, with_it = snapshot_pca(both, dimension=7), snapshot_pca(known, dimension=7)
+    np.testing.assert_array_equal(with_it.basis, alone.basis)
