@@ -149,10 +149,9 @@ def accurate_model(
     start : PosingModel, optional
         A model of the same mesh with other handles, new, saved or loaded: handles may have been
         added, removed or moved since. The first model is then made of its shapes, and of shapes
-        solved loosely from what it predicts for the new handles. It has up to twice
-        the error of a model made from scratch, after a sixth to a half of the time. Unless it
-        meets the target, samples are solved starting from its solutions, and the old shapes count
-        for later bases.
+        solved loosely from what it predicts for the new handles. It has up to twice the error of a
+        model made from scratch, after a sixth to a half of the time. Unless it meets the target,
+        samples are solved starting from its solutions, and the old shapes count for later bases.
     surface : as for `reduce`
     tell : callable(str), optional
         Gets a line for each model that was tried, and the reason when samples are added.

@@ -37,7 +37,8 @@ def nonnegative_fit(
     proportion to their positive products with the residual. Then all weights are recomputed by
     non-negative least squares (Lawson & Hanson 1974), which may remove columns again.
     The columns with the largest products are much alike, so that one of them makes most others
-    superfluous: in batches of these two thirds are removed at once, and fits take twice as long.
+    superfluous: two thirds or more of a batch of these are removed at once, and fits take up to
+    three times as long.
     Products are not divided by the columns' norms, so that tets that hardly carry a force cannot
     get huge weights.
 
@@ -155,6 +156,7 @@ def drawn(products: NDArray[np.float32], count: int, rng: np.random.Generator) -
     are a weighted sample without repetition (Efraimidis & Spirakis 2006).
     """
     positive = np.flatnonzero(products > 0)
+    # One time for each entry, positive or not: where rounding changes a sign, other times stay.
     times = rng.exponential(size=len(products))[positive] / products[positive]
     first = np.argsort(times, kind="stable")[:count]
     return np.sort(positive[first])
