@@ -37,6 +37,11 @@ def with_creatures_tail(mesh: ss.TetMesh, handles: ss.Handles) -> ss.Handles:
     return handles.adding("tail", creature_handles(mesh)["tail"])
 
 
+def without(name: str, handle: str) -> Pair:
+    """A problem, and the same without a handle."""
+    return changed(name, lambda mesh, handles: handles.without(handle))
+
+
 def backwards(pair: Pair) -> Pair:
     """The inverse change."""
     return pair[1], pair[0]
@@ -46,12 +51,12 @@ def backwards(pair: Pair) -> Pair:
 CHANGES: dict[str, Callable[[], Pair]] = {
     "Dragon, and the tail": lambda: changed("dragon", with_tail),
     "creature, and the tail": lambda: changed("creature", with_creatures_tail),
-    "Armadillo, and the right hand": lambda: backwards(
-        changed("armadillo", lambda mesh, handles: handles.without("right_hand"))
-    ),
+    "Armadillo, and the right hand": lambda: backwards(without("armadillo", "right_hand")),
     "Spot, and the tail": lambda: changed("spot", with_spots_tail),
-    "tripod, and the right arm": lambda: backwards(
-        changed("tripod", lambda mesh, handles: handles.without("right"))
-    ),
+    "tripod, and the right arm": lambda: backwards(without("tripod", "right")),
     "Dragon, without the tail": lambda: backwards(changed("dragon", with_tail)),
+    "creature, without the tail": lambda: backwards(changed("creature", with_creatures_tail)),
+    "Armadillo, without the right hand": lambda: without("armadillo", "right_hand"),
+    "Spot, without the tail": lambda: backwards(changed("spot", with_spots_tail)),
+    "tripod, without the right arm": lambda: without("tripod", "right"),
 }

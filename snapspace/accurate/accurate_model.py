@@ -13,7 +13,8 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import Checkpoint, Progress, Snapshots, SolverOptions
-from .model_search import Model, ModelSearch, SearchOptions, Tell
+from .model_search import Model, ModelSearch, Tell
+from .search_options import SearchOptions
 from .solving import Solving
 from .step import Step
 
@@ -152,6 +153,8 @@ def accurate_model(
         solved loosely from what it predicts for the new handles. It has up to twice the error of a
         model made from scratch, after a sixth to a half of the time. Unless it meets the target,
         samples are solved starting from its solutions, and the old shapes count for later bases.
+        If handles were only removed, the first model is the old one without them, at once, and the
+        others are made as without `start`: the old shapes would take dimensions.
     surface : as for `reduce`
     tell : callable(str), optional
         Gets a line for each model that was tried, and the reason when samples are added.

@@ -13,7 +13,8 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import PosingModel
 from ..snapshots import Progress, Snapshots, SolverOptions
-from .model_search import Begins, Model, ModelSearch, SearchOptions
+from .model_search import Begins, Model, ModelSearch
+from .search_options import SearchOptions
 from .solving import Solving
 from .step import Step
 from .trial import Trial

@@ -10,14 +10,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..displacements import SnapshotGram
+from ..displacements import DisplacementRows, SnapshotGram
 from ..greedy import batch_checkpoint
 from ..interruptible import begin_abandonable
 from ..problem import InterpolationProblem, PosingProblem, solutions_beyond_tau
-from ..reduction import InterpolationModel, PosingModel
+from ..reduction import InterpolationModel, PosingModel, reduced_solutions
 from ..sampling import Method, sample
 from ..session import predicted_solutions
-from ..snapshots import Snapshots, solve_snapshots
+from ..snapshots import Snapshots, solve_snapshots, unsolved_snapshots
 from ..subspace import AffineSubspace
 from .solving import Solving
 
@@ -126,8 +126,22 @@ class GrowingSamples:
         return int(self._masks()[0].sum()) + len(self._known()) + given
 
     def begin_with(self, given: Snapshots, near: Snapshots) -> None:
-        """Takes shapes that count for a basis, and others near which the first solves start."""
-        self._given, self._first_known = given, near
+        """Takes shapes that count for a basis, and others near which the first solves start.
+
+        Shapes at the parameters of held-out samples, such as the first Sobol point of fewer
+        handles, are left out: a model must not be trained there.
+        """
+        judges = {w.tobytes() for w in self.parameters[self._judges.start : self._judges.stop]}
+        fresh = [w.tobytes() not in judges for w in given.parameters]
+        self._given, self._first_known = given.select(np.array(fresh)), near
+
+    def begin_near(self, model: PosingModel, count: int) -> Snapshots:
+        """Takes a model's solutions for the first samples as shapes near which solves start."""
+        parameters = self.parameters[:count]
+        solved = reduced_solutions(model, parameters)
+        rows = DisplacementRows(solved, solved.shape[1])
+        self._first_known = unsolved_snapshots(self.problem, parameters, rows)
+        return self._first_known
 
     def solve_loosely(self, count: int, solving: Solving, *, known: Snapshots | None) -> Snapshots:
         """Solves the first samples for a first impression; later solves start from them.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from functools import partial
 from typing import Any
 
@@ -23,7 +23,9 @@ from .growing_samples import GrowingSamples
 from .measured_ratio import measured_ratio
 from .old_model import OldModel, check_start, usual_shapes
 from .plan import plan_of, predicted_most_samples, usual_most_samples
-from .predicting import Predicting, predicting_stars
+from .predicting import MOST_DIMENSIONS, Predicting, predicting_stars
+from .restricted_model import restricted_model, with_starts
+from .search_options import SearchOptions
 from .solving import Solving
 from .step import Step
 from .trial import Trial, trial_of
@@ -33,19 +35,6 @@ Model = PosingModel | InterpolationModel
 Tell = Callable[[str], None]
 #: Gets "snapshots", "subspace" or "energy" before each of these parts of the work.
 Begins = Callable[[str], None]
-
-
-@dataclass(frozen=True, kw_only=True)
-class SearchOptions:
-    """What to search for; None stands for the default.
-
-    target_error, most_samples, budget, seed : as for `accurate_model`
-    """
-
-    target_error: float | None = None
-    most_samples: int | None = None
-    budget: float | None = None
-    seed: int = 0
 
 
 class ModelSearch:
@@ -93,14 +82,16 @@ class ModelSearch:
         check_budget(options.budget)
         self._budget = options.budget
         self._plan = usual.fitting(self.most)
+        self._restricted: PosingModel | None = None
         self._old: OldModel | None = None
-        self._near = 0  # number of shapes near solutions, if there is an old model
         if start is not None:
             check_start(start, problem)
             assert isinstance(problem, PosingProblem)
-            wanted = max(self._plan.first, usual_shapes(start, problem))
-            self._near = min(wanted, self.most - self._plan.held_out)
-            self._old = OldModel(start, problem, most=self._near)
+            self._restricted = restricted_model(start, problem, surface)
+            if self._restricted is None:
+                wanted = max(self._plan.first, usual_shapes(start, problem))
+                near = min(wanted, self.most - self._plan.held_out)
+                self._old = OldModel(start, problem, most=near)
         self._first: Model | None = None  # made from the old one
         self._predicting = Predicting()
         self._solving, self._surface = solving, surface
@@ -138,6 +129,11 @@ class ModelSearch:
         if not count:
             return None
         self._begins("snapshots")
+        if (whole := self._restricted) is not None:
+            leading = whole.leading(min(whole.dimension, MOST_DIMENSIONS))
+            near = self.samples.begin_near(leading, count)
+            self._first = with_starts(whole, near)
+            return near
         return self.samples.solve_loosely(count, self._solving, known=known)
 
     def impression(self, loose: Snapshots) -> Model:
@@ -172,9 +168,8 @@ class ModelSearch:
         one_a_stage : also yield a model of a stage that cannot meet the target, to show progress.
             It does not count otherwise.
         """
-        stages = self._plan.stages(self.most)
-        if self._first is not None:
-            stages.insert(0, self._plan.held_out)
+        judged = [] if self._old is None else [self._plan.held_out]
+        stages = judged + self._plan.stages(self.most)
         for stage in itertools.count():
             count = stages[stage]
             self._begins("snapshots")
@@ -185,27 +180,34 @@ class ModelSearch:
             last = count == self.most or self._is_too_late(count, stages[stage + 1])
             if self._first is not None and stage == 0:
                 yield self._taken(self._judged(count, self._first))
-            else:
+            if (self._old is None or stage > 0) and not self._is_met:
                 tries = DimensionSearch(self.samples, self._plan, self.target, self._ratio())
                 for dimension in tries.dimensions(last=last):
                     trial = self._taken(self._try(count, dimension, tries))
+                    self._predicting.take(trial.model, self.samples.trained)
                     tries.add(trial.step)
                     yield trial
                 if one_a_stage and not tries.steps and not last:
                     yield self._try(count, tries.most, tries)
-            if last or (self.best is not None and self.best.step.error <= self.target):
+            if last or self._is_met:
                 break
             target = f"{100 * self.target:.2g} %"
             self._tell(f"no dimension of {count} samples meets {target}: more samples")
 
+    @property
+    def _is_met(self) -> bool:
+        """Whether the best model meets the target."""
+        return self.best is not None and self.best.step.error <= self.target
+
     def _ratio(self) -> float:
         """Ratio of errors of reduced solutions to those of projections, as known so far.
 
-        The least of the steps: where more dimensions do not help, it grows and means nothing.
-        Before the first step, that of the last model that predicted samples, if there is one.
+        The least of the steps, without a restricted model's: where more dimensions do not help, it
+        grows and means nothing. Before them, that of the last model that predicted samples, if any.
         """
-        if self.steps:
-            return min(step.ratio for step in self.steps)
+        steps = self.steps if self._restricted is None else self.steps[1:]
+        if steps:
+            return min(step.ratio for step in steps)
         model = self._predicting.latest
         if model is None or not self._plan.trusts_predictions:
             return self._plan.first_ratio
@@ -224,7 +226,7 @@ class ModelSearch:
         """Returns shapes near solutions, and makes the first model of these and the old shapes."""
         self._begins("snapshots")
         plan, solving = self._plan, self._solving
-        training = slice(plan.held_out, plan.held_out + self._near)
+        training = slice(plan.held_out, plan.held_out + old.most)
         near = old.near_solutions(self.samples.parameters[training], threads=solving.threads)
         basis = near.joined(old.shapes)
         self.samples.begin_with(old.shapes, near)
@@ -236,7 +238,6 @@ class ModelSearch:
         """Reports and records a trial, and returns it."""
         self._tell(str(trial.step))
         self.steps.append(trial.step)
-        self._predicting.take(trial.model, self.samples.trained)
         if self.best is None or trial.step.error < self.best.step.error:
             self.best = trial
         return trial
@@ -287,11 +288,10 @@ class ModelSearch:
         """Whether the samples of the next stage and a model would end after the budget."""
         if self._budget is None:
             return False
-        seconds = self.seconds
         # the first model takes up to as long as the samples that it is made of
-        model = self._model_seconds or seconds
+        model = self._model_seconds or self.seconds
         wanted = self.samples.seconds_a_sample * (following - count) + model
-        if seconds + wanted <= self._budget:
+        if self.seconds + wanted <= self._budget:
             return False
         self._tell(
             f"{following} samples would exceed the budget of {self._budget:g} s: {count} samples "

@@ -15,12 +15,12 @@ from ..problem import HandleBox, Handles, PosingProblem
 from ..reduction import PosingModel, handle_quadric, reduced_solutions
 from ..snapshots import (
     Predictions,
-    SampleReport,
     Snapshots,
     SolverOptions,
     carry_over,
     lowest_start,
     solve_snapshots,
+    unsolved_snapshots,
 )
 from .predicting import MOST_DIMENSIONS
 
@@ -49,12 +49,12 @@ class OldModel:
     problem : PosingProblem
         The problem with the new handles.
     most : int
-        How many of the model's shapes are used: the first ones, since the first Sobol samples
-        spread over the domain however many they are.
+        How many shapes near solutions there are, and how many of the model's shapes are used: the
+        first ones, since the first Sobol samples spread over the domain however many they are.
     """
 
     def __init__(self, model: PosingModel, problem: PosingProblem, *, most: int) -> None:
-        self._model, self._problem, self._most = model, problem, most
+        self._model, self._problem, self.most = model, problem, most
         # with 209 dimensions the guesses of an Armadillo take three times as long, and its model is
         # no better
         self._guessing = model.leading(min(model.dimension, MOST_DIMENSIONS))
@@ -66,8 +66,8 @@ class OldModel:
 
     @property
     def dimension(self) -> int:
-        """Dimension of the old model, or less where handles were removed."""
-        return round(_share(self._model, self._problem) * self._model.dimension)
+        """Dimension of the old model."""
+        return self._model.dimension
 
     @cached_property
     def shapes(self) -> Snapshots:
@@ -76,10 +76,11 @@ class OldModel:
         They are the projections of its samples: a saved model has nothing else.
         """
         model = self._model
-        rows = model.subspace.shapes(model.training_coordinates[: self._most])
-        rows -= model.problem.base
-        parameters = model.training_parameters[: self._most]
-        return carry_over(_guessed(model.problem, parameters, rows), self._problem)
+        rows = model.subspace.shapes(model.training_coordinates[: self.most])
+        parameters = model.training_parameters[: self.most]
+        displacements = DisplacementRows(rows - model.problem.base, model.problem.base.size)
+        old = unsolved_snapshots(model.problem, parameters, displacements)
+        return carry_over(old, self._problem)
 
     def near_solutions(self, parameters: FloatArray, *, threads: int | None) -> Snapshots:
         """Shapes near the solutions for samples (k, p): solved loosely, from guesses."""
@@ -98,7 +99,7 @@ class OldModel:
         ends = np.array(list(loose.displacements))
         lost = ~np.isfinite(ends).all(axis=1)
         ends[lost] = starts[lost]
-        return _guessed(problem, parameters, ends)
+        return unsolved_snapshots(problem, parameters, DisplacementRows(ends, ends.shape[1]))
 
     def guesses(self, parameters: FloatArray, *, threads: int | None) -> FloatArray:
         """Displacements (k, 3n) near the solutions for samples (k, p), without solving.
@@ -142,7 +143,8 @@ class OldModel:
         columns = (6 * (self._kept[1:, None] - 1) + np.arange(6)).reshape(-1)
         wanted = np.ascontiguousarray(parameters[:, columns])
         solved = reduced_solutions(self._with_handles(common, columns), wanted)
-        there = carry_over(_guessed(common, wanted, solved), problem).parameters
+        rows = DisplacementRows(solved, solved.shape[1])
+        there = carry_over(unsolved_snapshots(common, wanted, rows), problem).parameters
         return solved + problem.guesses(parameters) - problem.guesses(there)
 
     def _with_handles(
@@ -156,32 +158,19 @@ class OldModel:
             self._guessing,
             problem=problem,
             handles=handle_quadric(problem, self._guessing.subspace),
-            training_coordinates=self._guessing.training_coordinates[: self._most],
+            training_coordinates=self._guessing.training_coordinates[: self.most],
             training_parameters=np.ascontiguousarray(self.shapes.parameters[:, columns]),
         )
-
-
-def _guessed(problem: PosingProblem, parameters: FloatArray, rows: FloatArray) -> Snapshots:
-    """Snapshots of displacements (k, 3n) that are guesses, not solutions."""
-    report = SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)
-    displacements = DisplacementRows(np.ascontiguousarray(rows), problem.base.size)
-    return Snapshots(problem, parameters, displacements, [report] * len(parameters))
 
 
 def usual_shapes(model: PosingModel, problem: PosingProblem) -> int:
     """How many shapes near solutions a first model takes.
 
-    Twelve for each parameter, and at least three quarters of those that the old model has, or less
-    where handles were removed: some bodies take more than others.
+    Twelve for each parameter, and at least three quarters of those that the old model has: some
+    bodies take more than others.
     """
-    known = SHARE * _share(model, problem) * len(model.training_parameters)
+    known = SHARE * len(model.training_parameters)
     return max(SHAPES_A_PARAMETER * problem.parameter_count, round(known))
-
-
-def _share(model: PosingModel, problem: PosingProblem) -> float:
-    """Share of the model's parameters that the problem has as well, by their number."""
-    before = model.problem.parameter_count
-    return min(problem.parameter_count, before) / before
 
 
 def check_start(model: Any, problem: Any) -> None:

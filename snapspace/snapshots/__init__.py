@@ -1,6 +1,6 @@
 """Snapshots: full-space solutions at sampled parameters."""
 
-from .carry import carry_over
+from .carry import carry_over, unsolved_snapshots
 from .checkpoint import Checkpoint, CheckpointNotice, UnsavedSamplesError, run_key
 from .predictions import Predictions, positive_inverse
 from .run import Interrupted
@@ -34,4 +34,5 @@ __all__ = [
     "save_snapshots",
     "solve_snapshots",
     "solver_key",
+    "unsolved_snapshots",
 ]

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array, diags_array
 
 from ..blas import single_threaded_blas
 from ..displacements import DisplacementRows
-from ..problem import Handle, PosingProblem, euler_of_rotation, rotation_matrix
+from ..problem import Handle, PosingProblem, Problem, euler_of_rotation, rotation_matrix
 from ..registration import RigidMotion, rigid_registration
 from .snapshots import SampleReport, Snapshots
 
@@ -63,13 +65,18 @@ def carry_over(snapshots: Snapshots, problem: PosingProblem) -> Snapshots:
     shapes = (old.base + row for row in known.displacements)
     samples = [carrier.carry(m, x) for m, x in zip(motions, shapes, strict=True)]
     parameters = np.array([parameters for parameters, _ in samples])
-    rows = np.array([shape for _, shape in samples]) - problem.base
-    if _same_objective(old, problem):
-        reports = list(known.reports)
-    else:
-        reports = [SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)] * len(rows)
-    displacements = DisplacementRows(rows, problem.base.size)
-    return Snapshots(problem, parameters, displacements, reports)
+    moved = [shape for _, shape in samples if shape is not None]
+    rows = DisplacementRows(np.array(moved) - problem.base, old.base.size) if moved else None
+    carried = unsolved_snapshots(problem, parameters, rows or known.displacements)
+    return replace(carried, reports=known.reports) if _same_objective(old, problem) else carried
+
+
+def unsolved_snapshots(
+    problem: Problem, parameters: FloatArray, displacements: DisplacementRows
+) -> Snapshots:
+    """Snapshots whose shapes were not solved for their parameters: their status is "carried"."""
+    report = SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)
+    return Snapshots(problem, parameters, displacements, [report] * len(parameters))
 
 
 class _Carrier:
@@ -82,10 +89,14 @@ class _Carrier:
         masses = new.mesh.vertex_masses
         self._masses = [csr_array(diags_array(masses[handle.vertices])) for handle in new.handles]
 
-    def carry(self, moving: FloatArray, shape: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Parameters (p,) and positions (3n,), from motions (h - 1, 6) and positions (3n,)."""
+    def carry(self, moving: FloatArray, shape: FloatArray) -> tuple[FloatArray, FloatArray | None]:
+        """Parameters (p,) and positions (3n,), from motions (h - 1, 6) and positions (3n,).
+
+        None for positions that stay, since the first handle does.
+        """
         motions = np.vstack([np.zeros(6), moving])
-        if self._places[0] != 0:  # otherwise nothing moves, and known values keep all their bits
+        moves = self._places[0] != 0  # otherwise known values keep all their bits
+        if moves:
             back = self._first_motion(motions, shape).inverse()
             shape = back.apply(shape)
             pairs = zip(motions, self._old.centroids, strict=True)
@@ -97,7 +108,7 @@ class _Carrier:
             for h, place in enumerate(self._places)
             if h > 0
         ]
-        return np.concatenate(parameters), shape
+        return np.concatenate(parameters), shape if moves else None
 
     def _first_motion(self, motions: FloatArray, shape: FloatArray) -> RigidMotion:
         """The motion, in the old problem, of the handle that the new problem fixes."""

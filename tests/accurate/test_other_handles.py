@@ -22,8 +22,13 @@ from snapspace import (
     growing_models,
     load,
 )
+from snapspace.accurate.growing_samples import GrowingSamples
 from snapspace.accurate.old_model import OldModel
+from snapspace.accurate.restricted_model import restricted_model
+from snapspace.accurate.solving import Solving
+from snapspace.displacements import DisplacementRows
 from snapspace.generators import creature_handles
+from snapspace.snapshots import unsolved_snapshots
 from snapspace.validation import solved_reference, unseen_errors
 
 from ..shapes import interpolation_problem
@@ -124,6 +129,68 @@ def test_handles_may_be_moved_removed_or_fixed(
     reference = solved_reference(problem, samples=8)
     started, impression = next(growing_models(problem, start=start)), next(growing_models(problem))
     assert median_error(started, reference) < 0.5 * median_error(impression, reference)
+
+
+def test_a_model_of_fewer_handles_is_there_at_once(
+    motions: PosingProblem, first: Growth, rough_motions: AccurateModel[PosingModel]
+) -> None:
+    old = first.model
+    assert isinstance(old, PosingModel)
+    reference = solved_reference(motions, samples=8)
+    started = next(growing_models(motions, start=old))
+    assert isinstance(started.model, PosingModel) and started.model.problem is motions
+    assert started.model.elastic is old.elastic, "nothing was trained"
+    assert started.model.subspace is old.subspace
+    assert not len(started.snapshots.reports) or all(r.carried for r in started.snapshots.reports)
+    over = float(np.median(unseen_errors(rough_motions.model, reference)))
+    assert median_error(started, reference) < 2.0 * over
+
+
+def test_the_search_for_fewer_handles_ends_like_one_from_scratch(
+    motions: PosingProblem, first: Growth
+) -> None:
+    old = first.model
+    assert isinstance(old, PosingModel)
+    met = accurate_model(motions, start=old, target_error=0.05)
+    assert met.reached and met.model.elastic is old.elastic, "the restricted model meets the target"
+    target = 0.5 * met.step.error
+    built = accurate_model(motions, start=old, target_error=target)
+    scratch = accurate_model(motions, target_error=target)
+    assert built.reached and len(built.snapshots) <= len(scratch.snapshots)
+    # shapes of the handle that is gone would take dimensions
+    assert built.model.dimension <= 1.2 * scratch.model.dimension
+
+
+def test_only_a_problem_that_asks_for_less_restricts_a_model(
+    motions: PosingProblem, start: PosingModel
+) -> None:
+    box = motions.domain
+    assert isinstance(box, HandleBox)
+    smaller, wider = (
+        motions.with_handles(
+            motions.handles,
+            domain=HandleBox(
+                translation=factor * box.bounds[:, :3], angle=box.bounds[:, 3:], moving=1
+            ),
+        )
+        for factor in (0.5, 1.5)
+    )
+    restricted = restricted_model(start, smaller, None)
+    assert restricted is not None and restricted.problem is smaller
+    stiffer = posing_creature(5000, StableNeoHookean(mu=2.0))
+    for other in (wider, adding_a_tail(motions), fixing_another(motions), moved(motions), stiffer):
+        assert restricted_model(start, other, None) is None
+
+
+def test_no_model_is_trained_where_it_is_judged(motions: PosingProblem, start: PosingModel) -> None:
+    samples = GrowingSamples(motions, 20, method="sobol", seed=0, first=0, held_out=4)
+    some = samples.parameters[2:8]  # the first two are held out
+    near = unsolved_snapshots(
+        motions, some, DisplacementRows(np.ones((6, motions.base.size)), motions.base.size)
+    )
+    samples.begin_with(near, near)
+    samples.solve_up_to(4, Solving(), predict=lambda: start)
+    np.testing.assert_array_equal(samples.trained.parameters, some[2:])
 
 
 def test_a_target_that_the_first_model_meets_ends_the_search(

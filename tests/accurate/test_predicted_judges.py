@@ -22,9 +22,9 @@ from snapspace.accurate import model_search
 from snapspace.accurate.dimension_search import MODES_PER_SOLUTION, DimensionSearch
 from snapspace.accurate.growing_samples import GrowingSamples, Model
 from snapspace.accurate.measured_ratio import measured_ratio
-from snapspace.accurate.model_search import SearchOptions
 from snapspace.accurate.plan import BLENDS, Plan
 from snapspace.accurate.predicting import Predicting
+from snapspace.accurate.search_options import SearchOptions
 from snapspace.accurate.solving import Solving
 from snapspace.generators import lizard_poses
 from snapspace.mesh import mass_norms

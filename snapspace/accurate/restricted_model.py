@@ -1,0 +1,67 @@
+"""Restricted models: a model without some of its handles, at once."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..mesh import EmbeddedSurface, boundary_surface
+from ..problem import PosingProblem
+from ..reduction import PosingModel, with_handles
+from ..reduction.training import training
+from ..snapshots import Snapshots
+
+
+def restricted_model(
+    model: PosingModel, problem: PosingProblem, surface: EmbeddedSurface | None
+) -> PosingModel | None:
+    """A model of fewer handles, without solving or training; None if the problem asks for more.
+
+    A removed handle no longer pulls, and the shapes that it would take by itself are near those
+    that it was moved through. So the subspace and the tets of the energy serve as they are, for
+    motions within the old bounds.
+
+    Parameters
+    ----------
+    model : PosingModel
+        The model of all handles.
+    problem : PosingProblem
+        A problem of the same mesh.
+    surface : as for `reduce`
+
+    Returns
+    -------
+    PosingModel or None
+        Its training samples are the model's, whose shapes feel the removed handles as well. None if
+        a handle is new or has wider bounds, another one is fixed, or the material differs.
+    """
+    old = model.problem
+    places = {handle.vertices.tobytes(): place for place, handle in enumerate(old.handles)}
+    kept = np.array([places.get(handle.vertices.tobytes(), -1) for handle in problem.handles])
+    moving = kept[1:] - 1
+    if kept[0] != 0 or (kept < 0).any() or problem.material.key != old.material.key:
+        return None
+    if (problem.domain.bounds > old.domain.bounds[moving]).any():
+        return None
+    motions = model.training_parameters.reshape(len(model.training_parameters), -1, 6)
+    return replace(
+        with_handles(model, problem),
+        surface=surface or boundary_surface(problem.mesh),
+        training_parameters=motions[:, moving].reshape(len(motions), -1),
+        training_coordinates=model.training_coordinates,
+    )
+
+
+def with_starts(model: PosingModel, near: Snapshots) -> PosingModel:
+    """The model with reduced solutions as further training samples.
+
+    A restricted model needs them: jumps that start from the samples of more handles alone may end
+    in another minimum.
+    """
+    parameters, coordinates = training(model.problem, model.subspace, near)
+    return replace(
+        model,
+        training_parameters=np.vstack([model.training_parameters, parameters]),
+        training_coordinates=np.vstack([model.training_coordinates, coordinates]),
+    )
