@@ -6,9 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..mesh import EmbeddedSurface, boundary_surface
+from ..mesh import EmbeddedSurface
 from ..problem import PosingProblem
 from ..reduction import PosingModel, with_handles
+from ..reduction.shown_surface import surface_in
 from ..reduction.training import training
 from ..snapshots import Snapshots
 
@@ -35,6 +36,11 @@ def restricted_model(
     PosingModel or None
         Its training samples are the model's, whose shapes feel the removed handles as well. None if
         a handle is new or has wider bounds, another one is fixed, or the material differs.
+
+    Raises
+    ------
+    ValueError
+        If the surface belongs to another mesh.
     """
     old = model.problem
     places = {handle.vertices.tobytes(): place for place, handle in enumerate(old.handles)}
@@ -47,7 +53,7 @@ def restricted_model(
     motions = model.training_parameters.reshape(len(model.training_parameters), -1, 6)
     return replace(
         with_handles(model, problem),
-        surface=surface or boundary_surface(problem.mesh),
+        surface=surface_in(problem.mesh, surface, who="accurate_model"),
         training_parameters=motions[:, moving].reshape(len(motions), -1),
         training_coordinates=model.training_coordinates,
     )
