@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from snapspace.server.body import Body
-from snapspace.server.messages import Compute, Failed, Model
+from snapspace.server.messages import Choose, Chosen, Compute, Failed, HandleChoice, Model
 from snapspace.server.messages import Workspace as Opened
 from snapspace.server.settings import ServerSettings
 from snapspace.server.shared_body import SharedBody
@@ -112,6 +112,33 @@ def test_each_material_starts_from_the_samples_of_the_last_one(settings: ServerS
         assert workspace._models.newest.model.problem.material.kind == kind
     workspace.close()
     assert not any(isinstance(message, Failed) for message in mailbox.messages)
+
+
+def test_a_removed_handle_is_gone_at_once(settings: ServerSettings) -> None:
+    mailbox = Mailbox()
+    workspace = Workspace(settings, mailbox.put)
+    workspace.open()
+    mailbox.wait_for(Opened, kind="mesh")
+    order = replace(ORDER, material="stable-neo-hookean", target_error=1e-4, most_samples=40)
+    for request, names in enumerate((("foot", "head", "belly"), ("foot", "head")), start=1):
+        handles = [handle for handle in bar_problem().handles if handle.name in names]
+        chosen = tuple(
+            HandleChoice(name=h.name, vertices=tuple(map(int, h.vertices)), moving=h.name != "foot")
+            for h in handles
+        )
+        bounds = (0.8, 0.8, 0.8)
+        workspace.receive(
+            Choose(request=10 + request, handles=chosen, translation=bounds, angle=bounds)
+        )
+        mailbox.wait_for(Chosen, request=10 + request)
+        workspace.receive(replace(order, request=request))
+        mailbox.wait_for(Model, request=request, final=True)
+    workspace.close()
+    assert not any(isinstance(message, Failed) for message in mailbox.messages)
+    models = [m for m in mailbox.messages if isinstance(m, Model)]
+    last_of_three = next(m for m in models if m.request == 1 and m.final)
+    first_of_two = next(m for m in models if m.request == 2)
+    assert first_of_two.dimension == last_of_three.dimension, "it is the same subspace"
 
 
 def refusal(settings: ServerSettings, monkeypatch: pytest.MonkeyPatch, error: Exception) -> Failed:
