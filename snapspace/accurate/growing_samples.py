@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..displacements import DisplacementRows, SnapshotGram
+from ..displacements import SnapshotGram
 from ..greedy import batch_checkpoint
 from ..interruptible import begin_abandonable
 from ..problem import InterpolationProblem, PosingProblem, solutions_beyond_tau
@@ -139,8 +139,7 @@ class GrowingSamples:
         """Takes a model's solutions for the first samples as shapes near which solves start."""
         parameters = self.parameters[:count]
         solved = reduced_solutions(model, parameters)
-        rows = DisplacementRows(solved, solved.shape[1])
-        self._first_known = unsolved_snapshots(self.problem, parameters, rows)
+        self._first_known = unsolved_snapshots(self.problem, parameters, solved)
         return self._first_known
 
     def solve_loosely(self, count: int, solving: Solving, *, known: Snapshots | None) -> Snapshots:

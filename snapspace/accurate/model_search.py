@@ -180,7 +180,7 @@ class ModelSearch:
             last = count == self.most or self._is_too_late(count, stages[stage + 1])
             if self._first is not None and stage == 0:
                 yield self._taken(self._judged(count, self._first))
-            if (self._old is None or stage > 0) and not self._is_met:
+            if count > self._plan.held_out and not self._is_met:
                 tries = DimensionSearch(self.samples, self._plan, self.target, self._ratio())
                 for dimension in tries.dimensions(last=last):
                     trial = self._taken(self._try(count, dimension, tries))

@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..displacements import DisplacementRows
 from ..interruptible import begin_abandonable
 from ..problem import HandleBox, Handles, PosingProblem
-from ..reduction import PosingModel, handle_quadric, reduced_solutions
+from ..reduction import PosingModel, reduced_solutions, with_handles
 from ..snapshots import (
     Predictions,
     Snapshots,
@@ -58,11 +57,13 @@ class OldModel:
         # with 209 dimensions the guesses of an Armadillo take three times as long, and its model is
         # no better
         self._guessing = model.leading(min(model.dimension, MOST_DIMENSIONS))
-        old = {handle.vertices.tobytes() for handle in model.problem.handles}
-        kept = [h for h, one in enumerate(problem.handles) if one.vertices.tobytes() in old]
+        places = problem.handles.places_in(model.problem.handles)
+        kept = [h for h, place in enumerate(places) if place is not None]
         #: Indices of the problem's handles that the model has as well; the first one is fixed.
         self._kept = np.array(kept, np.intp)
-        self._all_kept = len(kept) == len(old)
+        self._all_kept = len(kept) == len(model.problem.handles)
+        #: Whether the model's frame and energy are the problem's.
+        self._fits = places[0] == 0 and problem.material.key == model.problem.material.key
 
     @property
     def dimension(self) -> int:
@@ -78,8 +79,7 @@ class OldModel:
         model = self._model
         rows = model.subspace.shapes(model.training_coordinates[: self.most])
         parameters = model.training_parameters[: self.most]
-        displacements = DisplacementRows(rows - model.problem.base, model.problem.base.size)
-        old = unsolved_snapshots(model.problem, parameters, displacements)
+        old = unsolved_snapshots(model.problem, parameters, rows - model.problem.base)
         return carry_over(old, self._problem)
 
     def near_solutions(self, parameters: FloatArray, *, threads: int | None) -> Snapshots:
@@ -99,7 +99,7 @@ class OldModel:
         ends = np.array(list(loose.displacements))
         lost = ~np.isfinite(ends).all(axis=1)
         ends[lost] = starts[lost]
-        return unsolved_snapshots(problem, parameters, DisplacementRows(ends, ends.shape[1]))
+        return unsolved_snapshots(problem, parameters, ends)
 
     def guesses(self, parameters: FloatArray, *, threads: int | None) -> FloatArray:
         """Displacements (k, 3n) near the solutions for samples (k, p), without solving.
@@ -125,13 +125,6 @@ class OldModel:
         inputs = problem.inputs(parameters)
         return lowest_start(problem.system, inputs, [beyond, within], threads=threads or 0)
 
-    @property
-    def _fits(self) -> bool:
-        """Whether the model's frame and energy are the problem's."""
-        old, problem = self._model.problem, self._problem
-        first = next(iter(problem.handles)).vertices, next(iter(old.handles)).vertices
-        return np.array_equal(*first) and problem.material.key == old.material.key
-
     def _solved_and_moved(self, parameters: FloatArray) -> FloatArray:
         """Reduced solutions for the kept handles, and the others moved by the linear response."""
         problem, every = self._problem, list(self._problem.handles)
@@ -143,8 +136,7 @@ class OldModel:
         columns = (6 * (self._kept[1:, None] - 1) + np.arange(6)).reshape(-1)
         wanted = np.ascontiguousarray(parameters[:, columns])
         solved = reduced_solutions(self._with_handles(common, columns), wanted)
-        rows = DisplacementRows(solved, solved.shape[1])
-        there = carry_over(unsolved_snapshots(common, wanted, rows), problem).parameters
+        there = carry_over(unsolved_snapshots(common, wanted, solved), problem).parameters
         return solved + problem.guesses(parameters) - problem.guesses(there)
 
     def _with_handles(
@@ -155,9 +147,7 @@ class OldModel:
         columns : which of the problem's parameters belong to these handles
         """
         return replace(
-            self._guessing,
-            problem=problem,
-            handles=handle_quadric(problem, self._guessing.subspace),
+            with_handles(self._guessing, problem),
             training_coordinates=self._guessing.training_coordinates[: self.most],
             training_parameters=np.ascontiguousarray(self.shapes.parameters[:, columns]),
         )

@@ -43,10 +43,9 @@ def restricted_model(
         If the surface belongs to another mesh.
     """
     old = model.problem
-    places = {handle.vertices.tobytes(): place for place, handle in enumerate(old.handles)}
-    kept = np.array([places.get(handle.vertices.tobytes(), -1) for handle in problem.handles])
-    moving = kept[1:] - 1
-    if kept[0] != 0 or (kept < 0).any() or problem.material.key != old.material.key:
+    first, *others = problem.handles.places_in(old.handles)
+    moving = [place - 1 for place in others if place is not None]
+    if first != 0 or len(moving) < len(others) or problem.material.key != old.material.key:
         return None
     if (problem.domain.bounds > old.domain.bounds[moving]).any():
         return None

@@ -80,6 +80,11 @@ class Handles:
             )
         return self.names.index(name)
 
+    def places_in(self, others: Handles) -> tuple[int | None, ...]:
+        """For each handle, the position among others of the one with the same vertices, or None."""
+        places = {handle.vertices.tobytes(): place for place, handle in enumerate(others)}
+        return tuple(places.get(handle.vertices.tobytes()) for handle in self)
+
     def adding(self, name: str, vertices: ArrayLike) -> Handles:
         """These handles and, after them, one more; ValueError as for the constructor."""
         return Handles([*(handle.vertices for handle in self), vertices], names=[*self.names, name])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +11,7 @@ from scipy.sparse import csr_array, diags_array
 
 from ..blas import single_threaded_blas
 from ..displacements import DisplacementRows
-from ..problem import Handle, PosingProblem, Problem, euler_of_rotation, rotation_matrix
+from ..problem import PosingProblem, Problem, euler_of_rotation, rotation_matrix
 from ..registration import RigidMotion, rigid_registration
 from .snapshots import SampleReport, Snapshots
 
@@ -65,16 +66,20 @@ def carry_over(snapshots: Snapshots, problem: PosingProblem) -> Snapshots:
     shapes = (old.base + row for row in known.displacements)
     samples = [carrier.carry(m, x) for m, x in zip(motions, shapes, strict=True)]
     parameters = np.array([parameters for parameters, _ in samples])
-    moved = [shape for _, shape in samples if shape is not None]
-    rows = DisplacementRows(np.array(moved) - problem.base, old.base.size) if moved else None
-    carried = unsolved_snapshots(problem, parameters, rows or known.displacements)
+    moved = [shape - problem.base for _, shape in samples if shape is not None]
+    carried = unsolved_snapshots(problem, parameters, moved or known.displacements)
     return replace(carried, reports=known.reports) if _same_objective(old, problem) else carried
 
 
 def unsolved_snapshots(
-    problem: Problem, parameters: FloatArray, displacements: DisplacementRows
+    problem: Problem, parameters: FloatArray, displacements: Iterable[FloatArray]
 ) -> Snapshots:
-    """Snapshots whose shapes were not solved for their parameters: their status is "carried"."""
+    """Snapshots whose shapes were not solved for their parameters: their status is "carried".
+
+    displacements : rows (3n,), as for `DisplacementRows`
+    """
+    if not isinstance(displacements, DisplacementRows):
+        displacements = DisplacementRows(displacements, problem.base.size)
     report = SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)
     return Snapshots(problem, parameters, displacements, [report] * len(parameters))
 
@@ -84,8 +89,7 @@ class _Carrier:
 
     def __init__(self, old: PosingProblem, new: PosingProblem) -> None:
         self._old, self._new = old, new
-        places = {_key(handle): place for place, handle in enumerate(old.handles)}
-        self._places = [places.get(_key(handle)) for handle in new.handles]
+        self._places = new.handles.places_in(old.handles)
         masses = new.mesh.vertex_masses
         self._masses = [csr_array(diags_array(masses[handle.vertices])) for handle in new.handles]
 
@@ -124,10 +128,6 @@ class _Carrier:
         return rigid_registration(rest.reshape(-1), there.reshape(-1), self._masses[h])
 
 
-def _key(handle: Handle) -> bytes:
-    return handle.vertices.tobytes()
-
-
 def _rigid(motion: FloatArray, center: FloatArray) -> RigidMotion:
     """The map of positions for translation and Euler angles (6,) about a center."""
     rotation = rotation_matrix(motion[3:])
@@ -148,9 +148,9 @@ def _composed(second: RigidMotion, first: RigidMotion) -> RigidMotion:
 
 def _same_objective(old: PosingProblem, new: PosingProblem) -> bool:
     """Whether solutions of one are, up to a rigid motion, solutions of the other."""
-    keys = [{_key(handle) for handle in problem.handles} for problem in (old, new)]
     same_weights = (old.material, old.stiffness) == (new.material, new.stiffness)
-    return same_weights and keys[0] == keys[1]
+    same_number = len(old.handles) == len(new.handles)
+    return same_weights and same_number and None not in new.handles.places_in(old.handles)
 
 
 def _checked(snapshots: Snapshots, problem: PosingProblem) -> PosingProblem:

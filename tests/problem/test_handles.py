@@ -28,6 +28,13 @@ def test_order_names_and_length() -> None:
     assert repr(handles) == "Handles(handle_0: 1, handle_1: 1, handle_2: 1)"
 
 
+def test_handles_are_found_by_their_vertices_whatever_their_names() -> None:
+    others = Handles([[0, 1], [4], [7, 8]], names=["foot", "belly", "head"])
+    handles = Handles([[8, 7], [1, 0], [2], [6]], names=["foot", "b", "c", "d"])
+    assert handles.places_in(others) == (2, 0, None, None)
+    assert others.places_in(others) == (0, 1, 2)
+
+
 def test_vertices_cannot_be_changed_afterwards() -> None:
     with pytest.raises(ValueError, match="read-only"):
         Handles([[0, 1], [2]])[0].vertices[0] = 7

@@ -12,8 +12,9 @@ from pathlib import Path
 import pytest
 
 from snapspace.server.body import Body
-from snapspace.server.messages import Choose, Chosen, Compute, Failed, HandleChoice, Model
+from snapspace.server.messages import Choose, Chosen, Compute, Failed, Model
 from snapspace.server.messages import Workspace as Opened
+from snapspace.server.selection import choices_of
 from snapspace.server.settings import ServerSettings
 from snapspace.server.shared_body import SharedBody
 from snapspace.server.workspace import Workspace
@@ -120,12 +121,8 @@ def test_a_removed_handle_is_gone_at_once(settings: ServerSettings) -> None:
     workspace.open()
     mailbox.wait_for(Opened, kind="mesh")
     order = replace(ORDER, material="stable-neo-hookean", target_error=1e-4, most_samples=40)
-    for request, names in enumerate((("foot", "head", "belly"), ("foot", "head")), start=1):
-        handles = [handle for handle in bar_problem().handles if handle.name in names]
-        chosen = tuple(
-            HandleChoice(name=h.name, vertices=tuple(map(int, h.vertices)), moving=h.name != "foot")
-            for h in handles
-        )
+    every = choices_of(bar_problem())
+    for request, chosen in enumerate((every, every[:2]), start=1):
         bounds = (0.8, 0.8, 0.8)
         workspace.receive(
             Choose(request=10 + request, handles=chosen, translation=bounds, angle=bounds)
