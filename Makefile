@@ -60,6 +60,8 @@ paper: setup
 	$(BIN)/python -m paper
 
 # Three workers keep two processors busy: many tests wait for a browser, a server or the disk.
+# BLAS would wait in a busy loop after each product, 25 ms, on a processor that other workers need.
+test: export OPENBLAS_THREAD_TIMEOUT := 4
 test: setup
 	$(BIN)/python -m pytest --numprocesses 3 --dist worksteal
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
@@ -34,6 +35,11 @@ __all__ = ["chromium"]  # a fixture
 settings.register_profile("steady", derandomize=True, deadline=None)
 settings.register_profile("searching", deadline=None)
 settings.load_profile("steady")
+
+
+def pytest_collection_finish() -> None:
+    """Spares the collector of garbage what thousands of tests consist of, in every full round."""
+    gc.freeze()
 
 
 #: Pages need the mirror plane of the bar. The record of its models names it: a search takes longer
