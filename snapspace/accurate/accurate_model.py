@@ -153,8 +153,9 @@ def accurate_model(
         solved loosely from what it predicts for the new handles. It has up to twice the error of a
         model made from scratch, after a sixth to a half of the time. Unless it meets the target,
         samples are solved starting from its solutions, and the old shapes count for later bases.
-        If handles were only removed, the first model is the old one without them, at once, and the
-        others are made as without `start`: the old shapes would take dimensions.
+        If handles were only removed, the first model is the old one without them, at once. Unless
+        it meets the target, others are made as without `start`: the old shapes would take
+        dimensions.
     surface : as for `reduce`
     tell : callable(str), optional
         Gets a line for each model that was tried, and the reason when samples are added.

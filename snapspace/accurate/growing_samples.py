@@ -37,7 +37,7 @@ class GrowingSamples:
     first, held_out : int
         The `first` samples train, the next `held_out` are held out, and all others train again.
     pilot : int, default 0
-        So many of the first samples are solved before others are predicted.
+        So many of the first training samples are solved before others are predicted.
     slow : float, default 0
         Others are predicted only if these take more evaluations a sample.
     judges_too : bool, default False
@@ -63,8 +63,9 @@ class GrowingSamples:
         self._sampled = begin_abandonable(
             lambda: sample(problem.domain, most, method=method, seed=seed)
         )
-        self._pilot, self._slow, self._judges_too = pilot, slow, judges_too
+        self._slow, self._judges_too = slow, judges_too
         self._judges = range(first, first + held_out)
+        self._pilot = pilot if pilot <= first else pilot + held_out  # where its samples end
         self._snapshots: Snapshots | None = None
         self._first_known: Snapshots | None = None  # where the first solves start
         self._given: Snapshots | None = None  # shapes that count for a basis
@@ -78,12 +79,17 @@ class GrowingSamples:
         return self._sampled()
 
     @property
+    def training_parameters(self) -> FloatArray:
+        """Parameters of the sequence without those of the held-out samples."""
+        return np.delete(self.parameters, self._judges, axis=0)
+
+    @property
     def are_predicted(self) -> bool:
         """Whether a model of the pilot predicts others: it has been solved, and it was slow."""
         if not self._pilot or self._snapshots is None or len(self._snapshots) < self._pilot:
             return False
-        evaluations = [report.evaluations for report in self._snapshots.reports[: self._pilot]]
-        return float(np.mean(evaluations)) > self._slow
+        evaluations = np.array([report.evaluations for report in self._snapshots.reports])
+        return float(evaluations[: self._pilot][~self.held_out[: self._pilot]].mean()) > self._slow
 
     @property
     def snapshots(self) -> Snapshots:
@@ -108,7 +114,7 @@ class GrowingSamples:
     @property
     def trained(self) -> Snapshots:
         """The usable samples that are not held out, with their Gram matrix."""
-        which = self._masks()[0]
+        which = self._training()
         solved = self.snapshots.select(which)
         if self._given is not None:
             return solved.joined(self._given)
@@ -117,13 +123,13 @@ class GrowingSamples:
     @property
     def unseen(self) -> Snapshots:
         """The usable samples that are held out."""
-        return self.snapshots.select(self._masks()[1])
+        return self.snapshots.select(self._judging())
 
     @property
     def trained_solutions(self) -> int:
         """How many solutions a basis comes from, including those known without solving."""
         given = 0 if self._given is None else len(self._given)
-        return int(self._masks()[0].sum()) + len(self._known()) + given
+        return int(self._training().sum()) + len(self._known()) + given
 
     def begin_with(self, given: Snapshots, near: Snapshots) -> None:
         """Takes shapes that count for a basis, and others near which the first solves start.
@@ -131,13 +137,17 @@ class GrowingSamples:
         Shapes at the parameters of held-out samples, such as the first Sobol point of fewer
         handles, are left out: a model must not be trained there.
         """
+        self._given = given.select(self.unjudged(given.parameters))
+        self._first_known = near
+
+    def unjudged(self, parameters: FloatArray) -> NDArray[np.bool_]:
+        """Which parameters are not those of held-out samples, (k,)."""
         judges = {w.tobytes() for w in self.parameters[self._judges.start : self._judges.stop]}
-        fresh = [w.tobytes() not in judges for w in given.parameters]
-        self._given, self._first_known = given.select(np.array(fresh)), near
+        return np.array([w.tobytes() not in judges for w in parameters], bool)
 
     def begin_near(self, model: PosingModel, count: int) -> Snapshots:
-        """Takes a model's solutions for the first samples as shapes near which solves start."""
-        parameters = self.parameters[:count]
+        """Takes a model's solutions for the first samples that train; solves start near them."""
+        parameters = self.training_parameters[:count]
         solved = reduced_solutions(model, parameters)
         self._first_known = unsolved_snapshots(self.problem, parameters, solved)
         return self._first_known
@@ -166,7 +176,7 @@ class GrowingSamples:
 
         predict : returns the model that predicts the next samples, see `predicted_solutions`
         """
-        for end in (self._pilot, self._judges.start, self._judges.stop, count):
+        for end in sorted((self._pilot, self._judges.start, self._judges.stop, count)):
             before = 0 if self._snapshots is None else len(self._snapshots)
             if end <= before or end > count:
                 continue
@@ -208,7 +218,7 @@ class GrowingSamples:
 
     def projection_errors(self) -> FloatArray:
         """Errors of projections onto bases of the others, see `SnapshotGram.held_out_errors`."""
-        gram, (trained, unseen) = self._gram.copy(), self._masks()
+        gram, trained, unseen = self._gram.copy(), self._training(), self._judging()
         gram.add(list(self._known()))
         if self._given is not None:
             gram.add(list(self._given.displacements))
@@ -219,7 +229,7 @@ class GrowingSamples:
 
     def projection_errors_onto(self, subspace: AffineSubspace) -> FloatArray:
         """Errors of projections of the held-out samples onto another basis, (k,)."""
-        squares = np.diag(self._gram.matrix)[self._masks()[1]]
+        squares = np.diag(self._gram.matrix)[self._judging()]
         rows = self.unseen.displacements.shifted(self.problem.base - subspace.tau)
         held = (subspace.row_coordinates(rows) ** 2).sum(axis=1)
         errors: FloatArray = np.sqrt(np.maximum(squares - held, 0.0) / squares)
@@ -230,13 +240,19 @@ class GrowingSamples:
         shapes: FloatArray = solutions_beyond_tau(self.problem)[1] - self.problem.base
         return shapes
 
-    def _masks(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Masks (k,) of the usable samples that train, and of those that are held out."""
-        usable, judges = self.snapshots.usable, self.held_out
-        others = self._given is not None or (usable & ~judges).any()
-        if not ((usable & judges).any() and others):
+    def _training(self) -> NDArray[np.bool_]:
+        """Mask (k,) of the usable samples that train; none are needed beside given shapes."""
+        return self._usable(~self.held_out, needed=self._given is None)
+
+    def _judging(self) -> NDArray[np.bool_]:
+        """Mask (k,) of the usable samples that are held out."""
+        return self._usable(self.held_out)
+
+    def _usable(self, which: NDArray[np.bool_], *, needed: bool = True) -> NDArray[np.bool_]:
+        usable = self.snapshots.usable
+        if needed and not (usable & which).any():
             raise ValueError(
                 f"accurate_model: only {int(usable.sum())} of {len(usable)} samples converged; "
                 "allow more iterations"
             )
-        return usable & ~judges, usable & judges
+        return usable & which

@@ -102,7 +102,7 @@ class ModelSearch:
             self._most_predicted,
             method=self._plan.sampling,
             seed=options.seed,
-            first=0 if self._old else self._plan.first,  # the old model has trained already
+            first=0 if start else self._plan.first,  # a model to judge is there already
             pilot=0 if self._old else self._plan.pilot,
             slow=self._plan.slow,
             judges_too=self._plan.trusts_predictions,
@@ -132,7 +132,8 @@ class ModelSearch:
         if (whole := self._restricted) is not None:
             leading = whole.leading(min(whole.dimension, MOST_DIMENSIONS))
             near = self.samples.begin_near(leading, count)
-            self._first = with_starts(whole, near)
+            unjudged = self.samples.unjudged(whole.training_parameters)
+            self._first = with_starts(whole, near, unjudged)
             return near
         return self.samples.solve_loosely(count, self._solving, known=known)
 
@@ -168,7 +169,7 @@ class ModelSearch:
         one_a_stage : also yield a model of a stage that cannot meet the target, to show progress.
             It does not count otherwise.
         """
-        judged = [] if self._old is None else [self._plan.held_out]
+        judged = [] if self._first is None else [self._plan.held_out]
         stages = judged + self._plan.stages(self.most)
         for stage in itertools.count():
             count = stages[stage]
@@ -225,12 +226,11 @@ class ModelSearch:
     def _begin_with(self, old: OldModel) -> Snapshots:
         """Returns shapes near solutions, and makes the first model of these and the old shapes."""
         self._begins("snapshots")
-        plan, solving = self._plan, self._solving
-        training = slice(plan.held_out, plan.held_out + old.most)
-        near = old.near_solutions(self.samples.parameters[training], threads=solving.threads)
+        wanted = self.samples.training_parameters[: old.most]
+        near = old.near_solutions(wanted, threads=self._solving.threads)
         basis = near.joined(old.shapes)
         self.samples.begin_with(old.shapes, near)
-        most = min(plan.most_dimensions, old.dimension + len(near) // 2)
+        most = min(self._plan.most_dimensions, old.dimension + len(near) // 2)
         self._first = self._model(basis, most, near)
         return near
 

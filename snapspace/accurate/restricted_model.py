@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..mesh import EmbeddedSurface
 from ..problem import PosingProblem
@@ -58,15 +59,17 @@ def restricted_model(
     )
 
 
-def with_starts(model: PosingModel, near: Snapshots) -> PosingModel:
+def with_starts(model: PosingModel, near: Snapshots, unjudged: NDArray[np.bool_]) -> PosingModel:
     """The model with reduced solutions as further training samples.
 
     A restricted model needs them: jumps that start from the samples of more handles alone may end
     in another minimum.
+
+    unjudged : (k,), which of the model's own training samples stay: those that do not judge it
     """
     parameters, coordinates = training(model.problem, model.subspace, near)
     return replace(
         model,
-        training_parameters=np.vstack([model.training_parameters, parameters]),
-        training_coordinates=np.vstack([model.training_coordinates, coordinates]),
+        training_parameters=np.vstack([model.training_parameters[unjudged], parameters]),
+        training_coordinates=np.vstack([model.training_coordinates[unjudged], coordinates]),
     )
