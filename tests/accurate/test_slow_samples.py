@@ -39,6 +39,18 @@ def test_only_slow_bodies_are_predicted(
     assert np.mean(reports) > MOTIONS.slow
 
 
+def test_held_out_samples_that_come_first_are_no_pilot(motions: PosingProblem) -> None:
+    samples = GrowingSamples(
+        motions, 24, method="sobol", seed=0, first=0, held_out=8, pilot=4, slow=0.0
+    )
+    predicted = []
+    for count in (8, 24):
+        samples.solve_up_to(
+            count, Solving(), predict=lambda: predicted.append(samples.are_predicted)
+        )
+    assert predicted == [False, False, True], "8 held-out ones, the pilot, and 12 others"
+
+
 def test_predicted_samples_take_less(built: AccurateModel[PosingModel]) -> None:
     evaluations = np.array([report.evaluations for report in built.snapshots.reports])
     pilot = evaluations[: MOTIONS.pilot].mean()
