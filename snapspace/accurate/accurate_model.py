@@ -150,9 +150,10 @@ def accurate_model(
     start : PosingModel, optional
         A model of the same mesh with other handles, new, saved or loaded: handles may have been
         added, removed or moved since. The first model is then made of its shapes, and of shapes
-        solved loosely from what it predicts for the new handles. It has up to twice the error of a
-        model made from scratch, after a sixth to a half of the time. Unless it meets the target,
-        samples are solved starting from its solutions, and the old shapes count for later bases.
+        solved loosely from what it predicts for the new handles. It has up to 2.4 times the error
+        of a model made from scratch, after a sixth to two thirds of the time. Unless it meets the
+        target, samples are solved starting from its solutions, and the old shapes count for later
+        bases.
         If handles were only removed, the first model is the old one without them, at once. Unless
         it meets the target, others are made as without `start`: the old shapes would take
         dimensions.
