@@ -26,10 +26,10 @@ FloatArray = NDArray[np.float64]
 ROWS, MANY_ROWS = 3, 4000
 #: Most snapshots that are held out.
 HELD_OUT = 20
-#: How many candidates there are before each wanted tet has only ten, and most candidates: the rows
-#: of each take 16 KB for 2000 wanted tets. With 10,000 a fit of 2000 tets ends with 1050 on a dog
-#: with handles at its tips, since all others would get negative weights.
-MANY_CANDIDATES, MOST_CANDIDATES = 10_000, 20_000
+#: Most candidates: the rows of each take 16 KB for 2000 wanted tets. With 10,000 a fit of 2000 tets
+#: ends with 1050 on a dog with handles at its tips, since all others would get negative weights, and
+#: errors with 825 to 1340 tets are up to half larger (docs/notes/snapshot-engine.md).
+MOST_CANDIDATES = 20_000
 #: One snapshot in this many is held out, so at least this many are needed.
 FEWEST_SNAPSHOTS = 10
 
@@ -150,9 +150,8 @@ def _row_count(count: int) -> int:
 
 
 def _candidate_count(each: int, count: int) -> int:
-    """How many candidates there are for `count` wanted tets: `each`, but ten if they are many."""
-    some = min(each * count, max(MANY_CANDIDATES, 10 * count))
-    return max(min(some, MOST_CANDIDATES), count)
+    """How many candidates there are for `count` wanted tets."""
+    return max(min(each * count, MOST_CANDIDATES), count)
 
 
 def _checked_count(available: int, usual: int, tets: int | None) -> int:

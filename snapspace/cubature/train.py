@@ -51,7 +51,8 @@ TRAINED, CANDIDATES = 60, 20
 #: 20 blends and with 200, which take four times as long; with half as many candidates the Lion's
 #: errors grow by a third.
 TRAINED_BLENDS, BLEND_CANDIDATES = 40, 20
-#: How often a blended cubature may get half as many tets again to make the mean shape a minimum.
+#: How often a blended cubature may get half as many tets again to make the mean shape a minimum. It
+#: ends before where a fit takes no more of them: all others would get negative weights.
 GROWTHS = 4
 #: Fewest blends for a cubature: one to train on, and one to judge by.
 FEWEST_BLENDS = 2
@@ -174,11 +175,13 @@ def train_blended_cubature(
     shapes = subspace.tau - problem.base + states.coordinates[some] @ subspace.basis.T
     energies = problem.system.evaluate(shapes, states.weights[some], threads=threads or 0)[0]
     states = replace(states, floor=0.01 * float(np.abs(energies).max(initial=0.0)))
+    taken = 0
     for usual in _growing(count, element_count(problem)):
         budget = Budget(tets, usual, FEWEST_BLENDS, TRAINED_BLENDS, BLEND_CANDIDATES)
         fit = fit_tets(states, budget, seed=seed, threads=threads)
         cubature = states.sum_over(fit.tets, fit.volumes)
-        if tets is not None or _is_stable(cubature, problem.domain.center):
+        no_more, taken = len(fit.tets) <= taken, len(fit.tets)
+        if tets is not None or no_more or _is_stable(cubature, problem.domain.center):
             break
     unseen = fit.unseen
     alone = cubature.without_form() if isinstance(cubature, BlendedStars) else cubature

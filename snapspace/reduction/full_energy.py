@@ -112,8 +112,11 @@ class FullBlends:
         return self.energies.dimension
 
     def at(self, weights: ArrayLike) -> FullEnergy:
-        """The energy for weights (poses,)."""
-        return replace(self.energies, weights=np.asarray(weights, np.float64))
+        """The energy for weights (poses,); poses without weight cost nothing."""
+        every, w = self.energies, np.asarray(weights, np.float64)
+        own = np.flatnonzero(w)
+        parts = [every.parts[k] for k in own]
+        return replace(every, parts=parts, weights=w[own], origins=every.origins[own])
 
     def leading(self, dimension: int) -> FullBlends:
         """The energies on the first coordinates."""

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -13,7 +16,9 @@ from snapspace import (
     InterpolationProblem,
 )
 from snapspace import _core as core
-from snapspace.cubature import BlendedCubature
+from snapspace.cubature import BlendedCubature, train
+from snapspace.cubature.elastic_states import BlendingStates
+from snapspace.cubature.fit_tets import Budget, Fit
 
 from ..shapes import bar_poses
 from ..taylor import observed_order
@@ -185,3 +190,29 @@ def test_bad_arrays_are_named() -> None:
         few.value_and_gradient(np.zeros(D), np.ones(2))
     with pytest.raises(ValueError, match="corners must be"):
         core.BlendedCubature(few.rows, few.weights, few.material.core, np.zeros((2, 4, 12)))
+
+
+@pytest.mark.parametrize("stable_after", [1, 2, 99])
+def test_a_saddle_gets_more_tets_until_a_fit_takes_no_more(
+    stable_after: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """No fit takes more than 60 tets here, as if all others would get negative weights."""
+    one = problem("stable-neo-hookean")
+    rng = np.random.default_rng(7)
+    weights, coordinates = rng.dirichlet(np.ones(3), size=12), 0.02 * rng.normal(size=(12, 3))
+    wanted: list[int] = []
+    taken: list[int] = []
+    fitted = train.fit_tets
+
+    def limited(states: BlendingStates, budget: Budget, **options: Any) -> Fit[BlendingStates]:
+        fit = fitted(states, replace(budget, wanted=min(budget.usual, 60)), **options)
+        wanted.append(budget.usual)
+        taken.append(len(fit.tets))
+        return fit
+
+    monkeypatch.setattr(train, "fit_tets", limited)
+    monkeypatch.setattr(train, "_is_stable", lambda *_: len(taken) >= stable_after)
+    record = train.train_blended_cubature(one, subspace(one, 3), coordinates, weights)[1]
+    assert record["tets"] == taken[-1]
+    assert wanted == [45, 68, 101][:stable_after]
+    assert taken == sorted(taken)

@@ -15,7 +15,7 @@ def test_weights_are_overdetermined_and_chosen_from_several(count: int, each: in
     assert 2 * count <= _row_count(count) <= 3 * count
     candidates = _candidate_count(each, count)
     assert candidates >= count
-    assert candidates >= min(each, 10) * count or candidates == max(MOST_CANDIDATES, count)
+    assert candidates == each * count or candidates == max(MOST_CANDIDATES, count)
     assert candidates <= max(each * count, count)
 
 

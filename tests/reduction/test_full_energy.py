@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -89,6 +90,23 @@ def test_blends_are_those_of_the_problem(full_blends: InterpolationModel) -> Non
     assert found == pytest.approx(value, rel=1e-9)
     wanted = full_blends.subspace.basis.T @ gradient
     assert np.allclose(slope, wanted, rtol=0, atol=1e-8 * np.abs(wanted).max())
+
+
+def test_poses_without_weight_are_not_evaluated(
+    full_blends: InterpolationModel,
+) -> None:
+    """Most blends are between two of many poses."""
+    q = coordinates(full_blends, 1)
+    every = replace(full_blends.elastic([0.2, 0.5, 0.3]), weights=np.array([0.7, 0.0, 0.3]))
+    assert isinstance(every, FullEnergy)
+    energy = full_blends.elastic([0.7, 0.0, 0.3])
+    assert isinstance(energy, FullEnergy)
+    assert len(energy.parts) == len(energy.origins) == 2
+    value, gradient = energy.value_and_gradient(q)
+    known, slope = every.value_and_gradient(q)
+    assert value == known
+    assert np.array_equal(gradient, slope)
+    assert np.array_equal(energy.hessian(q), every.hessian(q))
 
 
 def test_blended_sessions_end_in_a_minimum(full_blends: InterpolationModel) -> None:
