@@ -27,8 +27,7 @@ ROWS, MANY_ROWS = 3, 4000
 #: Most snapshots that are held out.
 HELD_OUT = 20
 #: Most candidates: the rows of each take 16 KB for 2000 wanted tets. With 10,000 a fit of 2000 tets
-#: ends with 1050 on a dog with handles at its tips, since all others would get negative weights, and
-#: errors with 825 to 1340 tets are up to half larger (docs/notes/snapshot-engine.md).
+#: ends with 1050 on a dog with handles at its tips, since all others would get negative weights.
 MOST_CANDIDATES = 20_000
 #: One snapshot in this many is held out, so at least this many are needed.
 FEWEST_SNAPSHOTS = 10
@@ -43,6 +42,7 @@ class Budget:
     fewest_states : fewest states that a cubature needs
     most_trained : most states that it is trained on
     candidates : number of candidate tets per wanted tet
+    many_candidates : how many there are before each wanted tet has only ten
     """
 
     wanted: int | None
@@ -50,6 +50,12 @@ class Budget:
     fewest_states: int
     most_trained: int
     candidates: int
+    many_candidates: int
+
+    def candidate_count(self, count: int) -> int:
+        """How many candidates there are for `count` wanted tets."""
+        some = min(self.candidates * count, max(self.many_candidates, 10 * count))
+        return max(min(some, MOST_CANDIDATES), count)
 
 
 @dataclass(frozen=True)
@@ -107,9 +113,8 @@ def fit_tets(
     unseen = states.chosen(_spread(np.flatnonzero(held), HELD_OUT))
     with_forces, judging = trained.with_forces(), unseen.with_forces()
     ordered = tets_by_force(with_forces, threads=threads)
-    several = _candidate_count(budget.candidates, count)
     sampled = sampled_energy(trained, ordered)
-    candidates = sampled_tets(ordered, several, seed=seed).tets
+    candidates = sampled_tets(ordered, budget.candidate_count(count), seed=seed).tets
     rows = training_rows(
         with_forces,
         state_forces(with_forces, candidates, threads=threads),
@@ -147,11 +152,6 @@ def _repeated(factors: FloatArray, count: int) -> FloatArray:
 def _row_count(count: int) -> int:
     """How many force rows there are for `count` wanted tets, at most."""
     return max(min(ROWS * count, MANY_ROWS), 2 * count)
-
-
-def _candidate_count(each: int, count: int) -> int:
-    """How many candidates there are for `count` wanted tets."""
-    return max(min(each * count, MOST_CANDIDATES), count)
 
 
 def _checked_count(available: int, usual: int, tets: int | None) -> int:

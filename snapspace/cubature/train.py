@@ -43,14 +43,15 @@ ELEMENTS_PER_DIMENSION, MOST_ELEMENTS = 12, 1500
 TETS_PER_BLENDED_DIMENSION = 15
 #: Most tets of blends by default: the time of an evaluation is proportional to their number.
 MOST_BLENDED_TETS = 1000
-#: Most motions to train on, and candidates per wanted tet. Errors on Dragon, Spot, Elephant,
-#: Armadillo, dog head and hand are the same as with 200 motions and twice as many candidates, which
-#: take twice as long.
-TRAINED, CANDIDATES = 60, 20
+#: Most motions to train on, candidates per wanted tet, and how many there are before each has only
+#: ten. Errors on Dragon, Spot, Elephant, Armadillo, dog head and hand are the same as with 200
+#: motions and twice as many candidates. With at most 10,000 for up to 1000 tets, errors are a tenth
+#: to a third larger on the Dragon and on a dog with handles at its tips, and the same elsewhere.
+TRAINED, CANDIDATES, MANY_CANDIDATES = 60, 20, 20_000
 #: The same for blends. Errors of Lion, Dog, Centaur, ten Lions, 11 and 20 poses are the same with
 #: 20 blends and with 200, which take four times as long; with half as many candidates the Lion's
-#: errors grow by a third.
-TRAINED_BLENDS, BLEND_CANDIDATES = 40, 20
+#: errors grow by a third. Builds with more take as long, and end with as many samples on average.
+TRAINED_BLENDS, BLEND_CANDIDATES, MANY_BLEND_CANDIDATES = 40, 20, 10_000
 #: How often a blended cubature may get half as many tets again to make the mean shape a minimum. It
 #: ends before where a fit takes no more of them: all others would get negative weights.
 GROWTHS = 4
@@ -135,7 +136,7 @@ def train_cubature(
         exact = posed_stars(problem, subspace)
         return exact, record_of(exact, time.perf_counter() - begin)
     states = PosingStates(problem, subspace, coordinates[_moved(coordinates)], handle_hessian)
-    budget = Budget(tets, usual, FEWEST_SNAPSHOTS, TRAINED, CANDIDATES)
+    budget = Budget(tets, usual, FEWEST_SNAPSHOTS, TRAINED, CANDIDATES, MANY_CANDIDATES)
     fit = fit_tets(states, budget, seed=seed, threads=threads)
     cubature = Cubature.of_tets(problem, subspace, fit.tets, fit.volumes)
     alone = cubature.without_remainder()
@@ -177,7 +178,14 @@ def train_blended_cubature(
     states = replace(states, floor=0.01 * float(np.abs(energies).max(initial=0.0)))
     taken = 0
     for usual in _growing(count, element_count(problem)):
-        budget = Budget(tets, usual, FEWEST_BLENDS, TRAINED_BLENDS, BLEND_CANDIDATES)
+        budget = Budget(
+            tets,
+            usual,
+            FEWEST_BLENDS,
+            TRAINED_BLENDS,
+            BLEND_CANDIDATES,
+            MANY_BLEND_CANDIDATES,
+        )
         fit = fit_tets(states, budget, seed=seed, threads=threads)
         cubature = states.sum_over(fit.tets, fit.volumes)
         no_more, taken = len(fit.tets) <= taken, len(fit.tets)

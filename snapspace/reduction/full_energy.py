@@ -114,7 +114,7 @@ class FullBlends:
     def at(self, weights: ArrayLike) -> FullEnergy:
         """The energy for weights (poses,); poses without weight cost nothing."""
         every, w = self.energies, np.asarray(weights, np.float64)
-        own = np.flatnonzero(w)
+        own = np.flatnonzero(w).tolist()
         parts = [every.parts[k] for k in own]
         return replace(every, parts=parts, weights=w[own], origins=every.origins[own])
 
