@@ -50,10 +50,11 @@ MOST_BLENDED_TETS = 1000
 TRAINED, CANDIDATES, MANY_CANDIDATES = 60, 20, 20_000
 #: The same for blends. Errors of Lion, Dog, Centaur, ten Lions, 11 and 20 poses are the same with
 #: 20 blends and with 200, which take four times as long; with half as many candidates the Lion's
-#: errors grow by a third. Builds with more take as long, and end with as many samples on average.
+#: errors grow by a third. With more, builds of the Lion take as long on average, and some take more
+#: samples (docs/notes/snapshot-engine.md).
 TRAINED_BLENDS, BLEND_CANDIDATES, MANY_BLEND_CANDIDATES = 40, 20, 10_000
-#: How often a blended cubature may get half as many tets again to make the mean shape a minimum. It
-#: ends before where a fit takes no more of them: all others would get negative weights.
+#: How often a blended cubature may get half as many tets again to make the mean shape a minimum.
+#: Once a fit takes no more tets than the one before, larger numbers would not help either.
 GROWTHS = 4
 #: Fewest blends for a cubature: one to train on, and one to judge by.
 FEWEST_BLENDS = 2

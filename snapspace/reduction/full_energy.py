@@ -114,8 +114,8 @@ class FullBlends:
     def at(self, weights: ArrayLike) -> FullEnergy:
         """The energy for weights (poses,); poses without weight cost nothing."""
         every, w = self.energies, np.asarray(weights, np.float64)
-        own = np.flatnonzero(w).tolist()
-        parts = [every.parts[k] for k in own]
+        own = w != 0.0
+        parts = [part for part, used in zip(every.parts, own, strict=True) if used]
         return replace(every, parts=parts, weights=w[own], origins=every.origins[own])
 
     def leading(self, dimension: int) -> FullBlends:

@@ -109,6 +109,12 @@ def test_poses_without_weight_are_not_evaluated(
     assert np.array_equal(energy.hessian(q), every.hessian(q))
 
 
+@pytest.mark.parametrize("weights", [[0.5, 0.5], [0.2, 0.5, 0.3, 0.0]])
+def test_every_pose_needs_a_weight(full_blends: InterpolationModel, weights: list[float]) -> None:
+    with pytest.raises(ValueError, match="argument 2 is"):
+        full_blends.elastic(weights)
+
+
 def test_blended_sessions_end_in_a_minimum(full_blends: InterpolationModel) -> None:
     session = full_blends.session()
     session.blend([1.0, 0.0, 0.0])
