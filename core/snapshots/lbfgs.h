@@ -43,7 +43,7 @@ class LaneLbfgs {
         vectors_(objectives.masses()),
         trial_(size_, Real(0)),
         gradient_(size_, Real(0)),
-        work_(std::is_same_v<Single, Real> ? 0 : size_, 0.0f) {}
+        work_(kIsSingle ? 0 : size_, 0.0f) {}
 
   /// Solves samples until there are no more.
   void run(SampleExchange& exchange, const SolveControl& control) {
@@ -73,10 +73,11 @@ class LaneLbfgs {
   using Half = LaneLbfgs<memory, Pack<typename Real::Scalar, std::max(2, kWidth / 2)>>;
 
   static constexpr int kPairs = memory.pairs;
-  /// Relative error of a value, which is a sum of many terms with the rounding of the precision.
-  static constexpr double kRounding = std::is_same_v<typename Real::Scalar, float> ? 1e-7 : 1e-12;
   using Total = Lanes<kWidth>;
   using Single = SingleLanes<kWidth>;
+  static constexpr bool kIsSingle = std::is_same_v<Single, Real>;
+  /// Relative error of a value, which is a sum of many terms with the rounding of the precision.
+  static constexpr double kRounding = kIsSingle ? 1e-7 : 1e-12;
   using Pairs = PairProducts<memory>;
   using Vectors = LbfgsVectors<Real, memory>;
   using Products = typename Vectors::Products;
@@ -202,14 +203,13 @@ class LaneLbfgs {
 
   /// Where A^-1 is applied to the gradient: in place, if the gradient is in single precision.
   Single* single_gradient() {
-    if constexpr (std::is_same_v<Single, Real>)
+    if constexpr (kIsSingle)
       return gradient_.data();
     else
       return work_.data();
   }
 
-  /// Gradient at a trial . direction that led there. A step shorter than the rounding of the points
-  /// gives no new information, and the old slope is returned.
+  /// Gradient at a trial . direction that led there; after a step below rounding, the old slope.
   [[nodiscard]] double slope(int lane, const Products& products) const {
     const bool no_step = products.step_square[lane] == 0.0;
     return no_step ? lanes_[lane].slope : products.newest[lane] / steps_[lane];
@@ -261,6 +261,7 @@ class LaneLbfgs {
     if (lane.converged(options_.tolerance, objective_->negligible()) ||
         lane.settled(options_.settling))
       return lane.finish(SolveStatus::converged);
+    if (kIsSingle && lane.stalled(kRounding)) return lane.finish(SolveStatus::line_search_failed);
     if (lane.iterations >= options_.max_iterations) lane.finish(SolveStatus::max_iterations);
     if (!lane.done && lane.needs_seed()) renew_seed(index);
   }
@@ -272,8 +273,7 @@ class LaneLbfgs {
     lanes_[index].fresh = true;
   }
 
-  /// Rounding gave an ascent direction: forgets the memory and continues along the preconditioned
-  /// gradient. If that ascends as well, the gradient is noise.
+  /// Rounding gave an ascent direction: forgets the memory. If the gradient ascends, it is noise.
   void restart(int index) {
     if (lanes_[index].restarted) return lanes_[index].finish(SolveStatus::line_search_failed);
     lanes_[index].restarted = true;

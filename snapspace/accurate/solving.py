@@ -44,8 +44,10 @@ class Solving:
 
     def seeded(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
         """Options for training samples that a model predicts."""
-        usual, loose = self.usual(problem), problem.solving.seeded_tolerance
-        return usual if loose is None or self._decided else replace(usual, tolerance=loose)
+        usual, seeded = self.usual(problem), problem.solving.seeded_tolerance
+        if seeded is None or self._decided:
+            return usual
+        return replace(usual, tolerance=max(seeded, usual.tolerance or 0.0))
 
     def judging(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
         """Options for held-out samples.

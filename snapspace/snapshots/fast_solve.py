@@ -75,8 +75,13 @@ def first_iterations(problem: Problem, options: ResolvedOptions) -> int:
 
 
 def needs_another_try(report: SampleReport, options: ResolvedOptions) -> bool:
-    """Whether a sample has used up the problem's patience, but not all its iterations."""
-    return report.status == "max_iterations" and report.iterations < options.max_iterations
+    """Whether a sample has iterations left, but used up the problem's patience, or got stuck.
+
+    On soft bodies the rounding of single precision may stop a sample before it converges.
+    """
+    stuck = options.single and report.status == "line_search_failed"
+    slow = report.status == "max_iterations"
+    return (slow or stuck) and report.iterations < options.max_iterations
 
 
 def continue_solving(
@@ -92,10 +97,12 @@ def continue_solving(
     """Continues one sample alone, on factors made for the shapes that it reaches.
 
     inputs (input_size,), of which only the system's count; shape (3n,) and report are those reached
-    so far. Returns the final ones.
+    so far. Returns the final ones. A sample that got stuck continues in double precision.
     """
     traits = problem.solving
     while needs_another_try(report, options):
+        if report.status == "line_search_failed":
+            options = replace(options, single=False)
         if control.cancelled:
             return shape, replace(report, status="cancelled")
         left = options.max_iterations - report.iterations
@@ -108,6 +115,7 @@ def continue_solving(
             control=control,
             single=options.single,
             settling=options.settling,
+            modes=options.modes_of(problem),
         )
         shape, report = again.shapes[0], _continued(report, as_sample_report(again.reports[0]))
     return shape, report

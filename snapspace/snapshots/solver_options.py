@@ -20,7 +20,8 @@ PRECISIONS: tuple[Precision, ...] = ("single", "double")
 #: neo-Hookean, end at the same median distance of 6e-4 from tight solutions after as many
 #: evaluations, in 0.7 of the time.
 SINGLE_TOLERANCE = 1e-6
-#: Below this, single precision takes more evaluations than double, and may not converge.
+#: Below this, single precision takes more evaluations than double, and may not converge. On soft
+#: bodies that happens at 1e-5: see `needs_another_try`.
 SINGLE_LIMIT = 1e-7
 #: Where `settling` decides, samples whose energy converges earlier, for instance those at rest,
 #: stop at this tolerance.
@@ -68,7 +69,8 @@ class SolverOptions:
         are always summed in double precision. Default: single where settling decides and for
         tolerances of 1e-6 and more, which takes half the time and changes the shapes by less than
         the errors that these tests leave. Double if the mesh's units are so small or large that
-        energies would leave the range of single precision.
+        energies would leave the range of single precision. A sample that rounding stops before it
+        converges, as on soft bodies, continues in double precision.
     block : int, optional
         Number of samples handed out together. They start from the samples of earlier blocks, see
         `Schedule`: larger blocks keep more cores busy, smaller ones give better starts. Default 16

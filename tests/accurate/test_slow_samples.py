@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from snapspace import HandleBox, Handles, PosingModel, PosingProblem, generators, validate
-from snapspace.accurate import AccurateModel, accurate_model
+from snapspace.accurate import AccurateModel, accurate_model, solving
 from snapspace.accurate.growing_samples import GrowingSamples
 from snapspace.accurate.plan import MOTIONS
 from snapspace.accurate.solving import Solving
@@ -49,6 +49,18 @@ def test_held_out_samples_that_come_first_are_no_pilot(motions: PosingProblem) -
             count, Solving(), predict=lambda: predicted.append(samples.are_predicted)
         )
     assert predicted == [False, False, True], "8 held-out ones, the pilot, and 12 others"
+
+
+def test_predicted_samples_are_solved_as_tightly_as_others(
+    slender: PosingProblem, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Looser ones leave larger errors. Those of large bodies are looser, predicted or not."""
+    tolerances = []
+    for large in (False, True):
+        monkeypatch.setattr(solving, "is_large", lambda problem, large=large: large)
+        tolerances.append(Solving().usual(slender).tolerance)
+        assert Solving().seeded(slender) == Solving().usual(slender)
+    assert tolerances == [1e-7, 1e-6]
 
 
 def test_predicted_samples_take_less(built: AccurateModel[PosingModel]) -> None:
