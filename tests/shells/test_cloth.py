@@ -74,7 +74,9 @@ def test_a_dragged_cloth_neither_flips_nor_flies(
         assert np.isfinite(session.pose(w).value)
         shape = session.vertices
         assert np.isfinite(shape).all()
-        assert np.abs(shape - mesh.vertices).max() < mesh.diagonal
+        # a corner that has swung to the other side may have moved farther, but not from the handles
+        far = np.linalg.norm(shape[:, None] - shape[held], axis=2).min(axis=1)
+        assert far.max() < 0.8 * mesh.diagonal
         now = angles(mesh, shape)
         assert np.abs(now).max() < FOLDED
         # Followed through whole turns, a hinge beyond half a turn has passed through itself. In a
