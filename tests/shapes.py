@@ -69,6 +69,14 @@ def bar_problem(mesh: TetMesh | None = None, *, stiffness: float = 100.0) -> Pos
     )
 
 
+def slender_problem() -> PosingProblem:
+    """A bar forty times as long as it is thick, between its ends: it bends easily."""
+    mesh = bar(60, 2, 2, length=40.0)
+    x = mesh.vertices[:, 0]
+    domain = HandleBox(translation=4.0, angle=np.pi / 4)
+    return PosingProblem(mesh, Handles([x < 0.4, x > 39.6]), domain=domain)
+
+
 def random_subspace(
     mesh: TetMesh, dimension: int, *, tau: FloatArray | None = None, seed: int = 3
 ) -> AffineSubspace:

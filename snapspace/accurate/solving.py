@@ -43,7 +43,7 @@ class Solving:
         return replace(tight, tolerance=tight.tolerance * plan_of(problem).looser_if_large)
 
     def seeded(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
-        """Options for training samples that a model predicts."""
+        """Options for training samples that a model predicts: looser where that is good enough."""
         usual, seeded = self.usual(problem), problem.solving.seeded_tolerance
         if seeded is None or self._decided:
             return usual

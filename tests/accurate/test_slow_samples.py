@@ -5,20 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from snapspace import HandleBox, Handles, PosingModel, PosingProblem, generators, validate
+from snapspace import PosingModel, PosingProblem, validate
 from snapspace.accurate import AccurateModel, accurate_model, solving
 from snapspace.accurate.growing_samples import GrowingSamples
 from snapspace.accurate.plan import MOTIONS
 from snapspace.accurate.solving import Solving
 
+from ..shapes import slender_problem
+
 
 @pytest.fixture(scope="module")
 def slender() -> PosingProblem:
-    """A bar forty times as long as it is thick, between its ends."""
-    mesh = generators.bar(60, 2, 2, length=40.0)
-    x = mesh.vertices[:, 0]
-    ends = Handles([np.flatnonzero(x < 0.4), np.flatnonzero(x > 39.6)])
-    return PosingProblem(mesh, ends, domain=HandleBox(translation=4.0, angle=np.pi / 4))
+    return slender_problem()
 
 
 @pytest.fixture(scope="module")

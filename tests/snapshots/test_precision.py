@@ -19,11 +19,10 @@ from snapspace import (
     solve_snapshots,
 )
 from snapspace import _core as core
-from snapspace.generators import bar
 from snapspace.mesh import mass_norms
 from snapspace.snapshots.solver_options import SINGLE_TOLERANCE, Precision
 
-from ..shapes import irregular_bar
+from ..shapes import irregular_bar, slender_problem
 from .bars import assert_same_bits, parameters, posing_bar
 
 FloatArray = NDArray[np.float64]
@@ -116,20 +115,13 @@ def test_slivers(height: float) -> None:
     assert_single_is_good_enough(problem, parameters(problem, 12), share=0.9)
 
 
-def slender_bar() -> PosingProblem:
-    """A bar forty times as long as it is thick: along its soft modes, gradients are noise."""
-    mesh = bar(60, 2, 2, length=40.0)
-    x = mesh.vertices[:, 0]
-    ends = Handles([x < 0.4, x > 39.6])
-    return PosingProblem(mesh, ends, domain=HandleBox(translation=4.0, angle=0.8))
-
-
 def test_samples_that_rounding_stops_continue_in_double_precision() -> None:
     """They converge after about as many evaluations, at the same values, on any number of threads.
 
-    The core ends some of them in single precision as failed line searches.
+    Along soft modes gradients are noise in single precision, and the core ends some of the samples
+    as failed line searches.
     """
-    problem = slender_bar()
+    problem = slender_problem()
     samples = parameters(problem, 16)
     single, double, again = (
         solve_snapshots(
