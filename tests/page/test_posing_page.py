@@ -197,6 +197,23 @@ def test_beyond_the_box_a_notice_says_so(posing: Page) -> None:
     assert page.run("snapspace.session.outside.length") == 1
 
 
+def test_the_first_picture_has_the_size_of_its_place(posing_page: Path, opened: OpenPage) -> None:
+    page = opened(posing_page.as_uri(), size=(390, 844), is_mobile=True)
+    # later pictures follow an observer; without it there is only the first one
+    browser = page.page.context.new_cdp_session(page.page)
+    browser.send("Page.enable")
+    source = "window.ResizeObserver = class { observe() {} disconnect() {} };"
+    browser.send("Page.addScriptToEvaluateOnNewDocument", {"source": source})
+    page.open()
+    width, height, aspect = page.run(
+        "(({ renderer: { canvas }, camera }) =>"
+        " [canvas.clientWidth, canvas.clientHeight, camera.aspect])(snapspace.stage)"
+    )
+    assert (width, height) == (390, 456), "the panel takes the rest"
+    assert aspect == width / height
+    browser.detach()
+
+
 def test_a_finger_drags_on_a_phone(posing_page: Path, opened: OpenPage) -> None:
     page = opened(
         posing_page.as_uri(), size=(390, 844), has_touch=True, is_mobile=True, color_scheme="dark"

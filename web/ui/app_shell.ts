@@ -73,6 +73,7 @@ export class AppShell {
     this.#panel.scrollTop = 0;
     document.title = title || "Snapspace";
     const { renderer, scene } = this.stage;
+    this.stage.fit(); // the panel takes some of its place: already in the first picture
     this.stage.drawNow();
     renderer.prepare(scene); // hidden parts as well, such as the gizmo: the first press should not wait
     // inherited, not copied: what the view reports changes while it is shown
