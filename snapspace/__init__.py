@@ -102,7 +102,14 @@ EXPORTS = {
         "save_snapshots",
         "solve_snapshots",
     ),
-    "subspace": ("AffineSubspace", "affine_subspace", "pca", "snapshot_pca"),
+    "subspace": (
+        "AffineSubspace",
+        "affine_subspace",
+        "handle_windows",
+        "pca",
+        "snapshot_pca",
+        "widen",
+    ),
     "symmetry": (
         "counterparts",
         "mirror_handle",

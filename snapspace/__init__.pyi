@@ -110,8 +110,10 @@ from .snapshots import (
 from .subspace import (
     AffineSubspace,
     affine_subspace,
+    handle_windows,
     pca,
     snapshot_pca,
+    widen,
 )
 from .symmetry import (
     counterparts,
@@ -218,6 +220,7 @@ __all__ = [
     "fitted_targets",
     "greedy_snapshots",
     "growing_models",
+    "handle_windows",
     "handles_in_tets",
     "in_box",
     "in_sphere",
@@ -255,6 +258,7 @@ __all__ = [
     "split_errors",
     "stuff_surface",
     "validate",
+    "widen",
     "with_handles",
     "write_animation",
     "write_blender",

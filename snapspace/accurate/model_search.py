@@ -15,7 +15,7 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import InterpolationModel, PosingModel, reduce
 from ..snapshots import Snapshots
-from ..subspace import snapshot_pca, spanned_dimension
+from ..subspace import AffineSubspace, snapshot_pca, spanned_dimension
 from .checks import check_budget, check_most, check_target
 from .dimension_search import DimensionSearch
 from .early_parts import make_early_parts
@@ -50,9 +50,7 @@ class ModelSearch:
         How samples are solved.
     start : PosingModel, optional
         A model of other handles, see `accurate_model`.
-    surface : as for `reduce`
-    tell : as for `accurate_model`
-    begins : as for `growing_models`
+    surface, tell, begins : as for `reduce`, `accurate_model` and `growing_models`
 
     Raises
     ------
@@ -226,12 +224,11 @@ class ModelSearch:
     def _begin_with(self, old: OldModel) -> Snapshots:
         """Returns shapes near solutions, and makes the first model of these and the old shapes."""
         self._begins("snapshots")
-        wanted = self.samples.training_parameters[: old.most]
-        near = old.near_solutions(wanted, threads=self._solving.threads)
-        basis = near.joined(old.shapes)
+        near = old.near_solutions(self.samples.training_parameters, self._solving.threads)
         self.samples.begin_with(old.shapes, near)
-        most = min(self._plan.most_dimensions, old.dimension + len(near) // 2)
-        self._first = self._model(basis, most, near)
+        self._begins("subspace")
+        basis = old.widened(near, self._plan.most_dimensions, self._solving.threads)
+        self._first = self._reduced(basis, near)
         return near
 
     def _taken(self, trial: Trial) -> Trial:
@@ -273,12 +270,15 @@ class ModelSearch:
         self._begins("subspace")
         self._finish_parts()
         snapshots = snapshots.with_gram(threads=self._solving.threads)
-        subspace = snapshot_pca(snapshots, dimension=min(dimension, spanned_dimension(snapshots)))
+        basis = snapshot_pca(snapshots, dimension=min(dimension, spanned_dimension(snapshots)))
+        return self._reduced(basis, trained or snapshots, tets)
+
+    def _reduced(self, basis: AffineSubspace, trained: Snapshots, tets: int | None = None) -> Model:
         self._begins("energy")
         return reduce(
             self.samples.problem,
-            subspace,
-            snapshots=trained or snapshots,
+            basis,
+            snapshots=trained,
             tets=tets,
             surface=self._surface,
             threads=self._solving.threads,

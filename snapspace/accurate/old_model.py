@@ -21,6 +21,7 @@ from ..snapshots import (
     solve_snapshots,
     unsolved_snapshots,
 )
+from ..subspace import AffineSubspace, snapshot_pca, spanned_dimension, widen
 from .predicting import MOST_DIMENSIONS
 
 FloatArray = NDArray[np.float64]
@@ -32,10 +33,11 @@ FloatArray = NDArray[np.float64]
 TOLERANCE = 1e-3
 #: Limit of the iterations of each, wherever the guess is.
 MOST_ITERATIONS = 100
-#: Fewest shapes near solutions for each parameter, and their share of those of the old model. With
-#: two thirds as many, models are made in nine tenths of the time, and their errors are larger by a
-#: fourth to a half.
-SHAPES_A_PARAMETER, SHARE = 12, 0.75
+#: Fewest shapes near solutions for each parameter, and their share of those of the old model. Taken
+#: apart they are as good as half as many again were as a whole (docs/notes/other-handles.md).
+SHAPES_A_PARAMETER, SHARE = 8, 0.5
+#: Most directions of whole shapes in a subspace that is widened by their parts.
+MOST_WHOLE = 256
 
 
 class OldModel:
@@ -82,9 +84,9 @@ class OldModel:
         old = unsolved_snapshots(model.problem, parameters, rows - model.problem.base)
         return carry_over(old, self._problem)
 
-    def near_solutions(self, parameters: FloatArray, *, threads: int | None) -> Snapshots:
-        """Shapes near the solutions for samples (k, p): solved loosely, from guesses."""
-        problem = self._problem
+    def near_solutions(self, parameters: FloatArray, threads: int | None) -> Snapshots:
+        """Shapes near the solutions for the first `most` samples: solved loosely, from guesses."""
+        problem, parameters = self._problem, parameters[: self.most]
         _ = problem.system  # before threads ask for it
         finish_modes = begin_abandonable(problem.solving.soft_modes)
         starts = self.guesses(parameters, threads=threads)
@@ -100,6 +102,15 @@ class OldModel:
         lost = ~np.isfinite(ends).all(axis=1)
         ends[lost] = starts[lost]
         return unsolved_snapshots(problem, parameters, ends)
+
+    def widened(self, near: Snapshots, most: int, threads: int | None) -> AffineSubspace:
+        """The subspace of shapes near solutions and the model's shapes, and of their parts.
+
+        It has at most so many dimensions, and one per shape near a solution more than the model's.
+        """
+        shapes = near.joined(self.shapes).with_gram(threads=threads)
+        whole = snapshot_pca(shapes, dimension=min(MOST_WHOLE, spanned_dimension(shapes)))
+        return widen(whole, shapes, dimension=min(most, self.dimension + len(near)))
 
     def guesses(self, parameters: FloatArray, *, threads: int | None) -> FloatArray:
         """Displacements (k, 3n) near the solutions for samples (k, p), without solving.
@@ -156,8 +167,8 @@ class OldModel:
 def usual_shapes(model: PosingModel, problem: PosingProblem) -> int:
     """How many shapes near solutions a first model takes.
 
-    Twelve for each parameter, and at least three quarters of those that the old model has: some
-    bodies take more than others.
+    Eight for each parameter, and at least half of those that the old model has: some bodies take
+    more than others.
     """
     known = SHARE * len(model.training_parameters)
     return max(SHAPES_A_PARAMETER * problem.parameter_count, round(known))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -46,8 +47,18 @@ def test_the_notebook_is_saved_without_outputs() -> None:
     assert not any(cell["outputs"] or cell["execution_count"] for cell in cells)
 
 
-def test_a_basis_of_polynomials_makes_a_model(capsys: pytest.CaptureFixture[str]) -> None:
+def test_subspaces_of_polynomials_and_of_parts_make_models(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     text = (DOCS / "own-subspace.md").read_text(encoding="utf-8")
-    (code,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-    exec(code, {})
+    polynomials, parts = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    names: dict[str, Any] = {}
+    exec(polynomials, names)
     assert 0 < float(capsys.readouterr().out) < 0.05
+    exec(parts, names)
+    assert names["wide"].dimension == 20 > len(names["snapshots"])
+    wide, whole = (
+        ss.validate(ss.reduce(names["problem"], names[name], energy="exact"), samples=4).error
+        for name in ("wide", "whole")
+    )
+    assert wide.mean() < 0.6 * whole.mean()
