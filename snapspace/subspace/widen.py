@@ -70,14 +70,20 @@ def widen(
     Raises
     ------
     ValueError
-        If the problem has no handles, if the subspace has no energies, for windows of another shape
-        or not finite, for a dimension below 1, or for a weight that is negative or not finite.
+        If the problem has no handles, if the subspace is of another mesh or has no energies, for
+        windows of another shape or not finite, for a dimension below 1, or for a weight that is
+        negative or not finite.
     """
     problem = snapshots.problem
     if not isinstance(problem, PosingProblem):
         raise ValueError(
             f"widen: snapshots are of {problem!r}, but only handles take snapshots apart; use the "
             "subspace of snapshot_pca as it is"
+        )
+    if subspace.tau.size != problem.tau.size:
+        raise ValueError(
+            f"widen: the subspace is of {subspace.tau.size // 3} vertices, but the snapshots are "
+            f"of {problem.mesh!r}; give the subspace that was made of them"
         )
     energies = subspace.snapshot_energies
     if energies is None:

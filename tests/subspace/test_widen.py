@@ -153,6 +153,11 @@ def test_bad_dimension_weight_and_subspace(together: Snapshots, whole: AffineSub
         widen(whole, together, dimension=0)
     with pytest.raises(ValueError, match="widen: handle_weight is -1, but must be finite and not"):
         widen(whole, together, dimension=5, handle_weight=-1)
+    shorter = AffineSubspace(whole.tau[:-3], whole.basis[:-3], whole.mass[:-1, :-1], np.ones(1))
+    with pytest.raises(
+        ValueError, match="widen: the subspace is of 152 vertices, but the snapshot"
+    ):
+        widen(shorter, together, dimension=5)
     own = affine_subspace(whole.basis[:, :3], together.problem)
     with pytest.raises(ValueError, match="widen: the subspace has no energies"):
         widen(own, together, dimension=5)
