@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import Any
 
 from .choosing_page import press, wait_for_text
-from .pages import OpenPage, Page, Tabs
+from .pages import PAUSE, SECONDS, OpenPage, Page, Tabs
 from .serving import served
 
 #: Controls that are too small for fingers: narrower or lower than 44 pixels.
@@ -111,11 +112,16 @@ def test_a_new_token_is_asked_for(bar_folder: Path, opened: OpenPage) -> None:
         press(page, "Connect")
         page.page.wait_for_timeout(100)
         wait_for_text(page, "#connection", "has another token")
+        sent: list[str] = []
+        page.page.on("websocket", lambda to: to.on("framesent", lambda text: sent.append(text)))
         field.fill(other)
         press(page, "Connect")
         page.wait("document.getElementById('connection').hidden")
         assert page.run("snapspace.handles") == handles
-        page.page.wait_for_timeout(500)  # the page sends its choice to the new workspace
+        end = time.monotonic() + SECONDS
+        while not any(LONG in text for text in sent):
+            assert time.monotonic() < end, "the page sends its choice to the new workspace"
+            page.page.wait_for_timeout(PAUSE)
         page.page.reload()
         page.wait("snapspace.kind === 'choosing'")
         assert page.run("snapspace.handles") == handles, "the new server has them as well"
