@@ -15,11 +15,12 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import InterpolationModel, PosingModel, reduce
 from ..snapshots import Snapshots
-from ..subspace import AffineSubspace, snapshot_pca, spanned_dimension
+from ..subspace import AffineSubspace
 from .checks import check_budget, check_most, check_target
 from .dimension_search import DimensionSearch
 from .early_parts import make_early_parts
 from .growing_samples import GrowingSamples
+from .largest_pca import largest_pca
 from .measured_ratio import measured_ratio
 from .old_model import OldModel, check_start, usual_shapes
 from .plan import plan_of, predicted_most_samples, usual_most_samples
@@ -43,7 +44,6 @@ class ModelSearch:
     Parameters
     ----------
     problem : PosingProblem or InterpolationProblem
-        The problem to solve.
     options : SearchOptions
         Target and limits.
     solving : Solving
@@ -227,6 +227,7 @@ class ModelSearch:
         near = old.near_solutions(self.samples.training_parameters, self._solving.threads)
         self.samples.begin_with(old.shapes, near)
         self._begins("subspace")
+        self._finish_parts()
         basis = old.widened(near, self._plan.most_dimensions, self._solving.threads)
         self._first = self._reduced(basis, near)
         return near
@@ -269,8 +270,7 @@ class ModelSearch:
         """A model of at most a dimension; `trained` are those that train it, default all."""
         self._begins("subspace")
         self._finish_parts()
-        snapshots = snapshots.with_gram(threads=self._solving.threads)
-        basis = snapshot_pca(snapshots, dimension=min(dimension, spanned_dimension(snapshots)))
+        basis = largest_pca(snapshots, dimension, threads=self._solving.threads)
         return self._reduced(basis, trained or snapshots, tets)
 
     def _reduced(self, basis: AffineSubspace, trained: Snapshots, tets: int | None = None) -> Model:

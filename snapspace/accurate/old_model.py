@@ -21,7 +21,8 @@ from ..snapshots import (
     solve_snapshots,
     unsolved_snapshots,
 )
-from ..subspace import AffineSubspace, snapshot_pca, spanned_dimension, widen
+from ..subspace import AffineSubspace, widen
+from .largest_pca import largest_pca
 from .predicting import MOST_DIMENSIONS
 
 FloatArray = NDArray[np.float64]
@@ -108,8 +109,8 @@ class OldModel:
 
         It has at most so many dimensions, and one per shape near a solution more than the model's.
         """
-        shapes = near.joined(self.shapes).with_gram(threads=threads)
-        whole = snapshot_pca(shapes, dimension=min(MOST_WHOLE, spanned_dimension(shapes)))
+        shapes = near.joined(self.shapes)
+        whole = largest_pca(shapes, MOST_WHOLE, threads=threads)
         return widen(whole, shapes, dimension=min(most, self.dimension + len(near)))
 
     def guesses(self, parameters: FloatArray, *, threads: int | None) -> FloatArray:

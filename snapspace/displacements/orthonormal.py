@@ -17,11 +17,12 @@ FloatArray = NDArray[np.float64]
 
 
 def orthonormalise(directions: FloatArray, mass: csr_array) -> None:
-    """Restores U^T M U = I for nearly orthonormal rows (d, 3n), the columns of U.
+    """Restores U^T M U = I for nearly orthonormal rows (d, 3n), the columns of U, and fixes signs.
 
     Makes at most two Cholesky-QR passes; they are triangular, so bases stay nested. They are needed
     because the Gram matrix squares the condition number: a direction with eigenvalue lambda_i is
-    orthonormal only to eps * lambda_1 / lambda_i, far from 1e-12 for the last of forty.
+    orthonormal only to eps * lambda_1 / lambda_i, far from 1e-12 for the last of forty. The largest
+    entry of a direction is positive.
 
     Raises
     ------
@@ -31,7 +32,7 @@ def orthonormalise(directions: FloatArray, mass: csr_array) -> None:
     gram = _gram(directions, mass)
     for _ in range(2):
         if _error(gram) <= 1e-13:
-            return
+            break
         _divide(directions, cholesky(gram))
         gram = _gram(directions, mass)
     if _error(gram) > 1e-10:
@@ -39,6 +40,8 @@ def orthonormalise(directions: FloatArray, mass: csr_array) -> None:
             f"pca: the basis is orthonormal only to {_error(gram):.1e}; the last directions are "
             "noise; choose a smaller dimension"
         )
+    for direction in directions:
+        direction *= np.sign(direction[np.abs(direction).argmax()])
 
 
 def _divide(directions: FloatArray, factor: FloatArray) -> None:

@@ -16,7 +16,7 @@ SMALL = 1e-4
 def handle_windows(problem: PosingProblem) -> FloatArray:
     """How much each vertex follows each handle: smooth weights that add up to one.
 
-    With them, `snapshot_pca` takes snapshots apart: what one handle does to the body around it can
+    With them, `widen` takes snapshots apart: what one handle does to the body around it can
     be combined with what another one does elsewhere in another snapshot.
 
     Parameters

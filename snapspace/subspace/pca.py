@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.linalg import cholesky, eigh, solve_triangular
+from scipy.linalg import cholesky, solve_triangular
 from scipy.sparse import csr_array
 
 from ..blas import single_threaded_blas
@@ -14,16 +14,13 @@ from ..displacements import DisplacementRows, SnapshotGram, orthonormalise
 from ..mesh import mass_norm, shape_rows
 from ..problem import PosingProblem, solutions_beyond_tau
 from .affine_subspace import AffineSubspace, check_dimension
-from .handle_products import handle_products
+from .handle_products import HANDLE_WEIGHT, check_handle_weight, handle_products
+from .principal import descending, scaled
 
 if TYPE_CHECKING:
     from ..snapshots import Snapshots
 
 FloatArray = NDArray[np.float64]
-
-#: Chosen on five problems, where with 100 some errors still grow with d, and tested on seven others
-#: (docs/notes/basis-order.md).
-HANDLE_WEIGHT = 1000.0
 
 
 def snapshot_pca(
@@ -77,10 +74,7 @@ def snapshot_pca(
         finite, or if the Gram matrix is of other snapshots.
     """
     _check_size(dimension, energy_fraction)
-    if not (np.isfinite(handle_weight) and handle_weight >= 0):
-        raise ValueError(
-            f"snapshot_pca: handle_weight is {handle_weight}, but must be finite and not negative"
-        )
+    check_handle_weight(handle_weight, who="snapshot_pca")
     which = _which(snapshots, include_unconverged=include_unconverged)
     problem = snapshots.problem
     mass = problem.mass(lumped=lumped)
@@ -114,7 +108,7 @@ def spanned_dimension(snapshots: Snapshots) -> int:
     problem, which = snapshots.problem, _which(snapshots, include_unconverged=False)
     mass = problem.mass()
     matrix = _usable_products(snapshots, which, mass, None, lumped=False)[1]
-    return _rank(_descending(matrix)[0], problem.tau, mass)
+    return _rank(descending(matrix)[0], problem.tau, mass)
 
 
 def _which(snapshots: Snapshots, *, include_unconverged: bool) -> NDArray[np.bool_]:
@@ -209,7 +203,7 @@ def _pca(
 
     heavy : (k, k), inner products in the norm of the PCA, if that is not the mass
     """
-    eigenvalues, vectors = _descending(gram)
+    eigenvalues, vectors = descending(gram)
     rank = _rank(eigenvalues, tau, mass)
     count = rank if dimension is None else dimension
     if count > rank:
@@ -219,9 +213,9 @@ def _pca(
         )
     check_dimension(count, rank)
     if heavy is None:
-        energies, weights = eigenvalues, _scaled(eigenvalues, vectors, count)
+        energies, weights = eigenvalues, scaled(eigenvalues, vectors, count)
     else:
-        weights = _orthonormal(_scaled(*_descending(heavy), count), gram)
+        weights = _orthonormal(scaled(*descending(heavy), count), gram)
         along = ((weights @ gram) ** 2).sum(axis=1)
         energies = np.append(along, max(0.0, gram.trace() - along.sum()))
     if energy_fraction is not None:
@@ -230,21 +224,7 @@ def _pca(
         weights = weights[: min(rank, enough)]
     directions = displacements.combined(weights)
     orthonormalise(directions, mass)
-    for direction in directions:
-        direction *= np.sign(direction[np.abs(direction).argmax()])
     return AffineSubspace(tau, directions.T, mass, energies)
-
-
-def _descending(gram: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Eigenvalues, the largest first and none negative, and eigenvectors."""
-    eigenvalues, vectors = eigh(gram)
-    return np.maximum(eigenvalues[::-1], 0.0), vectors[:, ::-1]
-
-
-def _scaled(eigenvalues: FloatArray, vectors: FloatArray, dimension: int) -> FloatArray:
-    """Weights (d, k) of the snapshots in the first d directions, which have length one."""
-    weights: FloatArray = (vectors[:, :dimension] / np.sqrt(eigenvalues[:dimension])).T
-    return weights
 
 
 def _orthonormal(weights: FloatArray, gram: FloatArray) -> FloatArray:

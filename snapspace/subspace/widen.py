@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.linalg import eigh
 
 from ..blas import single_threaded_blas
 from ..displacements import BLOCK, orthonormalise
 from ..problem import PosingProblem
 from .affine_subspace import AffineSubspace
+from .handle_products import HANDLE_WEIGHT, check_handle_weight
 from .handle_windows import handle_windows
-from .pca import HANDLE_WEIGHT
+from .principal import descending, scaled
 
 if TYPE_CHECKING:
     from ..snapshots import Snapshots
@@ -91,15 +91,12 @@ def widen(
             "widen: the subspace has no energies, so its directions cannot be weighted; give one "
             "of snapshot_pca"
         )
-    if not (np.isfinite(handle_weight) and handle_weight >= 0):
-        raise ValueError(
-            f"widen: handle_weight is {handle_weight}, but must be finite and not negative"
-        )
+    check_handle_weight(handle_weight, who="widen")
+    if dimension < 1:
+        raise ValueError(f"widen: dimension is {dimension}, but must be at least 1")
     if windows is None:
         windows = handle_windows(problem)
     parts = _checked(windows, len(problem.mesh.vertices))
-    if dimension < 1:
-        raise ValueError(f"widen: dimension is {dimension}, but must be at least 1")
     weights = problem.mesh.vertex_masses.copy()
     weights[problem.pinned] *= 1.0 + handle_weight
     basis = _fitted(subspace, energies, parts, weights, dimension)
@@ -120,39 +117,36 @@ def _fitted(
 ) -> FloatArray:
     """The basis, (d, 3n)."""
     # the snapshots' extent along the directions: their products are those of the snapshots
-    rows = subspace.basis.T
-    extents = np.sqrt(energies[: len(rows), None])
+    rows = subspace.basis.T.reshape(subspace.dimension, -1, 3)
+    extents = np.sqrt(energies[: len(rows), None, None])
 
-    def taken_apart(vertices: NDArray[np.intp]) -> FloatArray:
-        """Rows and parts of rows at some vertices, (k, 3 vertices)."""
-        columns = (3 * vertices[:, None] + np.arange(3)).reshape(-1)
-        whole = extents * rows[:, columns]
-        apart = whole[:TAKEN_APART] * np.repeat(windows[:, None, vertices], 3, axis=2)
+    def taken_apart(vertices: slice) -> FloatArray:
+        """Rows and parts of rows at some vertices, (k, vertices, 3)."""
+        whole = extents * rows[:, vertices]
+        apart = whole[:TAKEN_APART] * windows[:, None, vertices, None]
         return np.concatenate([whole, *apart])
 
-    some = np.arange(0, len(weights), -(-len(weights) // VERTICES))
-    shares = _shares(taken_apart(some) * np.repeat(np.sqrt(weights[some]), 3), dimension)
+    some = slice(None, None, -(-len(weights) // VERTICES))
+    seen = taken_apart(some) * np.sqrt(weights[some, None])
+    shares = _shares(seen.reshape(len(seen), -1), dimension)
     basis = np.empty((len(shares), subspace.tau.size))
 
     def combine(first: int) -> None:
-        block = np.arange(first, min(first + BLOCK // 3, len(weights)))
-        basis[:, 3 * first : 3 * (block[-1] + 1)] = shares @ taken_apart(block)
+        parts = taken_apart(slice(first, first + BLOCK // 3))
+        basis[:, 3 * first : 3 * first + BLOCK] = shares @ parts.reshape(len(parts), -1)
 
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
         list(pool.map(combine, range(0, len(weights), BLOCK // 3)))
     orthonormalise(basis, subspace.mass)
-    for direction in basis:
-        direction *= np.sign(direction[np.abs(direction).argmax()])
     return basis
 
 
 def _shares(rows: FloatArray, dimension: int) -> FloatArray:
     """Shares (d, k) of rows in their leading principal components, which have length one."""
-    eigenvalues, vectors = eigh(rows @ rows.T)
+    eigenvalues, vectors = descending(rows @ rows.T)
     # below the rounding of the largest, directions are noise: windows that add up depend on another
-    real = eigenvalues > len(rows) * np.finfo(float).eps * eigenvalues[-1]
-    scaled = (vectors[:, real] / np.sqrt(eigenvalues[real])).T[::-1]
-    return np.ascontiguousarray(scaled[:dimension])
+    rank = int((eigenvalues > len(rows) * np.finfo(float).eps * eigenvalues[0]).sum())
+    return scaled(eigenvalues, vectors, min(dimension, rank))
 
 
 def _checked(windows: ArrayLike, vertices: int) -> FloatArray:

@@ -69,9 +69,13 @@ class Page:
 
     def wait(self, condition: str) -> None:
         """Waits until an expression is true. The page forbids what Playwright has for that."""
+        self.wait_for(lambda: bool(self.run(condition)), condition)
+
+    def wait_for(self, is_done: Callable[[], bool], what: str) -> None:
+        """Waits until something is done; browser events arrive meanwhile."""
         end = time.monotonic() + SECONDS
-        while not self.run(condition):
-            assert time.monotonic() < end, f"still not: {condition}"
+        while not is_done():
+            assert time.monotonic() < end, f"still not: {what}"
             self.page.wait_for_timeout(PAUSE)
 
     def settle(self) -> None:

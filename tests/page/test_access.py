@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 from typing import Any
 
 from .choosing_page import press, wait_for_text
-from .pages import PAUSE, SECONDS, OpenPage, Page, Tabs
+from .pages import OpenPage, Page, Tabs
 from .serving import served
 
 #: Controls that are too small for fingers: narrower or lower than 44 pixels.
@@ -118,10 +117,7 @@ def test_a_new_token_is_asked_for(bar_folder: Path, opened: OpenPage) -> None:
         press(page, "Connect")
         page.wait("document.getElementById('connection').hidden")
         assert page.run("snapspace.handles") == handles
-        end = time.monotonic() + SECONDS
-        while not any(LONG in text for text in sent):
-            assert time.monotonic() < end, "the page sends its choice to the new workspace"
-            page.page.wait_for_timeout(PAUSE)
+        page.wait_for(lambda: any(LONG in text for text in sent), "the choice is sent")
         page.page.reload()
         page.wait("snapspace.kind === 'choosing'")
         assert page.run("snapspace.handles") == handles, "the new server has them as well"

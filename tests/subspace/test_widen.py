@@ -75,15 +75,14 @@ def test_windows_add_up_to_one_and_tell_the_handles_apart(moving: float) -> None
     assert (np.diff(along) < 0.01).all(), "the body follows less and less"
 
 
-def test_parts_of_few_snapshots_do_what_many_would(together: Snapshots) -> None:
-    problem = together.problem
-    assert isinstance(problem, PosingProblem)
+def test_parts_of_few_snapshots_do_what_many_would(
+    together: Snapshots, whole: AffineSubspace
+) -> None:
     parameters = motions(COUNT)
     exchanged = np.hstack([parameters[:, :6], parameters[::-1, 6:]])
-    unseen = solve_snapshots(problem, exchanged)
-    plain = snapshot_pca(together, dimension=COUNT)
-    wide = widen(plain, together, dimension=2 * COUNT)
-    assert (projection_errors(wide, unseen) < 0.6 * projection_errors(plain, unseen)).all()
+    unseen = solve_snapshots(together.problem, exchanged)
+    wide = widen(whole, together, dimension=2 * COUNT)
+    assert (projection_errors(wide, unseen) < 0.6 * projection_errors(whole, unseen)).all()
 
 
 @pytest.mark.parametrize("dimension", [5, COUNT, 2 * COUNT])
@@ -128,8 +127,12 @@ def test_a_fit_to_some_vertices_is_as_good(
     assert some.mean() < 1.2 * every.mean()
 
 
-def test_the_same_arguments_give_the_same_bits(together: Snapshots, whole: AffineSubspace) -> None:
-    first, second = (widen(whole, together, dimension=20) for _ in range(2))
+def test_any_number_of_threads_gives_the_same_bits(
+    together: Snapshots, whole: AffineSubspace, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = widen(whole, together, dimension=20)
+    monkeypatch.setattr("os.cpu_count", lambda: 1)
+    second = widen(whole, together, dimension=20)
     np.testing.assert_array_equal(first.basis, second.basis)
 
 
