@@ -83,7 +83,7 @@ class ElasticStates(Protocol):
         """The energy summed over some tets with these volumes."""
         ...
 
-    def hessians(self, sampled: Any) -> Callable[[int | None], FloatArray]:
+    def hessians(self, estimate: Any) -> Callable[[int | None], FloatArray]:
         """Estimates the Hessian (d, d) of the objective by the energy of `sum_over`.
 
         The returned function takes the index of a state, or None for tau. Only one thread may call
@@ -141,12 +141,12 @@ class PosingStates:
         """See `ElasticStates`."""
         return Cubature.of_tets(self.problem, self.subspace, tets, volumes)
 
-    def hessians(self, sampled: Cubature) -> Callable[[int | None], FloatArray]:
+    def hessians(self, estimate: Cubature) -> Callable[[int | None], FloatArray]:
         """See `ElasticStates`."""
 
         def hessian(state: int | None) -> FloatArray:
-            q = np.zeros(sampled.dimension) if state is None else self.coordinates[state]
-            return sampled.rough_hessian(q) + self.handle_hessian
+            q = np.zeros(estimate.dimension) if state is None else self.coordinates[state]
+            return estimate.rough_hessian(q) + self.handle_hessian
 
         return hessian
 
@@ -209,13 +209,13 @@ class BlendingStates:
         """See `ElasticStates`."""
         return blended_sum(self.problem, self.subspace, tets, volumes)
 
-    def hessians(self, sampled: BlendedSum) -> Callable[[int | None], FloatArray]:
+    def hessians(self, estimate: BlendedSum) -> Callable[[int | None], FloatArray]:
         """See `ElasticStates`."""
 
         def hessian(state: int | None) -> FloatArray:
             if state is None:
-                mean = np.zeros(sampled.dimension)
-                return sampled.rough_hessian(mean, self.problem.domain.center)
-            return sampled.rough_hessian(self.coordinates[state], self.weights[state])
+                mean = np.zeros(estimate.dimension)
+                return estimate.rough_hessian(mean, self.problem.domain.center)
+            return estimate.rough_hessian(self.coordinates[state], self.weights[state])
 
         return hessian
