@@ -23,6 +23,9 @@ from snapspace.validation import unseen_errors
 
 from ..snapshots.bars import posing_bar
 
+#: The first stage meets the default target, but not this one.
+TARGET = 0.002
+
 
 @pytest.fixture
 def problem(motions: PosingProblem) -> PosingProblem:
@@ -31,7 +34,7 @@ def problem(motions: PosingProblem) -> PosingProblem:
 
 @pytest.fixture(scope="module")
 def growths(motions: PosingProblem) -> list[Growth]:
-    return list(growing_models(motions))
+    return list(growing_models(motions, target_error=TARGET))
 
 
 def test_each_model_is_better_than_the_last_and_reports_its_error(growths: list[Growth]) -> None:
@@ -46,10 +49,10 @@ def test_each_model_is_better_than_the_last_and_reports_its_error(growths: list[
 
 
 def test_the_last_model_is_that_of_accurate_model(
-    usual_motions: AccurateModel, growths: list[Growth]
+    problem: PosingProblem, growths: list[Growth]
 ) -> None:
     """Looking at the models in between does not change the last one."""
-    last, plain = growths[-1], usual_motions
+    last, plain = growths[-1], accurate_model(problem, target_error=TARGET)
     assert last.step == plain.step and last.step.error <= plain.target
     np.testing.assert_array_equal(last.model.subspace.basis, plain.model.subspace.basis)
     np.testing.assert_array_equal(last.held_out, plain.held_out)
