@@ -96,8 +96,9 @@ def train_cubature(
 ) -> tuple[Cubature, dict[str, Any]]:
     """Trains a cubature (An, Kim, James 2008) to have the forces and energies of all tets.
 
-    See `fit_tets`, `training_rows` and `nonnegative_fit` for the steps. Of a surface that is as rigid as
-    possible it has all stars, without training, where there are few: see `takes_all_stars`.
+    See `fit_tets`, `training_rows` and `nonnegative_fit` for the steps. Of a surface that is as
+    rigid as possible it has all stars, without training, where there are few: see
+    `takes_all_stars`.
 
     Parameters
     ----------

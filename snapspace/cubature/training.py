@@ -14,7 +14,7 @@ from .cubature import Cubature
 from .elastic_states import States
 from .elements import elements_of
 from .nonnegative_fit import nonnegative_fit
-from .state_forces import StateForces, state_forces
+from .state_forces import state_forces
 from .training_rows import training_rows
 
 FloatArray = NDArray[np.float64]
@@ -57,7 +57,9 @@ class Training(Generic[States]):
     ) -> None:
         self._states, self._candidates = states, candidates
         self._with_forces = states.with_forces()
-        self._found: StateForces = state_forces(self._with_forces, candidates, threads=threads)
+        self._found = state_forces(self._with_forces, candidates, threads=threads)
+        self._elements = elements_of(states.problem)
+        self._modes = self._elements.gradients(states.subspace.basis, candidates, threads=threads)
         self._seed, self._threads = seed, threads
 
     def __len__(self) -> int:
@@ -75,7 +77,7 @@ class Training(Generic[States]):
         system = training_rows(
             with_forces,
             self._found,
-            self._candidates,
+            self._modes,
             repeated(factors, len(with_forces)),
             directions=min(states.subspace.dimension, -(-rows // len(with_forces))),
             seed=self._seed,
@@ -90,7 +92,7 @@ class Training(Generic[States]):
                 "cubature; solve more samples"
             )
         tets = self._candidates[picks]
-        volumes = shares * elements_of(states.problem).measures[tets]
+        volumes = shares * self._elements.measures[tets]
         return WeightedTets(tets, volumes, len(system.target))
 
 

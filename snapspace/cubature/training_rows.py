@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from .. import _core as core
 from ..blas import single_threaded_blas
 from .elastic_states import ElasticStates
-from .elements import elements_of
 from .state_forces import StateForces
 
 FloatArray = NDArray[np.float64]
@@ -36,7 +35,7 @@ class TrainingRows:
 def training_rows(
     states: ElasticStates,
     found: StateForces,
-    candidates: NDArray[np.int32],
+    modes: NDArray[np.float32],
     compliances: FloatArray,
     *,
     directions: int,
@@ -58,8 +57,8 @@ def training_rows(
         The s states.
     found : StateForces
         Forces and energies at these states, with the candidates alone.
-    candidates : (c,) int32
-        The candidate tets.
+    modes : (c, e, d) float32
+        Displacement gradients of the modes in the c candidate tets, see `Elements.gradients`.
     compliances : (s, d, d)
         Inverse Hessians of the objective at the states.
     directions : int
@@ -76,13 +75,11 @@ def training_rows(
         would solve it exactly.
     """
     count, d = states.coordinates.shape
-    elements = elements_of(states.problem)
-    modes = elements.gradients(states.subspace.basis, candidates, threads=threads)
     rng = np.random.default_rng(seed)
     along = compliances @ rng.standard_normal((count, d, directions))
     forces = np.einsum("sd,sdk->sk", found.forces, along)
     scale = ENERGY_WEIGHT * np.sqrt(np.mean(forces**2) * directions) / found.units
-    columns = np.zeros((len(candidates), count * (directions + 1)), np.float32)
+    columns = np.zeros((len(modes), count * (directions + 1)), np.float32)
     core.training_columns(
         modes, found.stresses, along.astype(np.float32), columns, threads=threads or 0
     )
