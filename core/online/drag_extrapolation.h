@@ -18,11 +18,16 @@ class DragExtrapolation {
   /// Forgets all frames.
   void clear() { count_ = 0; }
 
+  /// Whether q (d) is the last frame.
+  [[nodiscard]] bool ends_at(int d, const double* q) const {
+    return count_ > 0 && std::equal(q, q + d, frames_[0].q.begin());
+  }
+
   /// Extrapolates q (d) to these inputs if q is the last frame and the inputs continue its path;
   /// otherwise q is unchanged.
   void extrapolate(int d, const double* inputs, double* q) const {
     const auto& [last, first, second] = frames_;
-    if (count_ < kFrames || !std::equal(q, q + d, last.q.begin())) return;
+    if (count_ < kFrames || !ends_at(d, q)) return;
     const double a = place(first, inputs), b = place(second, inputs);
     if (!(steady(-a) && steady(a - b))) return;
     const double from_last = (1.0 - a) * (1.0 - b) / (a * b);

@@ -24,9 +24,11 @@ class FrameMinimizer {
   }
 
   /// Minimises from q (d), in place. If q is the last frame of a drag, it starts where the drag is
-  /// extrapolated to.
+  /// extrapolated to. Elsewhere BFGS forgets its approximation, which holds near that frame: after
+  /// a jump the Hessian at tau is the better start.
   Report minimize(Objective& objective, const double* inputs, Method method, double* q,
                   const Termination& stop) {
+    if (!drag_.ends_at(d_, q)) minimizers_.forget();
     drag_.extrapolate(d_, inputs, q);
     const Report report = hessian_is_expensive_ && method == Method::bfgs
                               ? minimizers_.continue_bfgs(objective, q, stop)

@@ -80,6 +80,9 @@ class Minimizers {
     return softest > 0.0 ? softest : 1.0;
   }
 
+  /// The next BFGS starts from the inverse at tau again.
+  void forget() { keep(inverse_); }
+
   /// BFGS from q (d), in place, continued with the approximation of the last frame if that
   /// converged. If its line search fails, BFGS runs again from the inverse at tau; the report
   /// counts both runs.

@@ -118,3 +118,15 @@ def test_a_drag_of_a_handle_ends_where_a_jump_does(posing_model: PosingModel) ->
     jumped.pose(path[-1])
     apart = np.linalg.norm(dragged.vertices - jumped.vertices, axis=1).max()
     assert apart < 1e-5 * posing_model.problem.mesh.diagonal
+
+
+def test_a_drag_leaves_nothing_for_a_jump(cubature_model: PosingModel) -> None:
+    """BFGS keeps what a drag taught it for the drag's next frame only."""
+    session, fresh = cubature_model.session(), cubature_model.session()
+    path = motions(cubature_model)
+    for motion in path:
+        session.pose(motion)
+    session.reset()
+    after, anew = session.pose(path[0]), fresh.pose(path[0])
+    assert after.evaluations == anew.evaluations
+    np.testing.assert_array_equal(session.q, fresh.q)
