@@ -11,7 +11,7 @@ from ..mesh import EmbeddedSurface
 from ..problem import PosingProblem
 from ..reduction import PosingModel, with_handles
 from ..reduction.shown_surface import surface_in
-from ..reduction.training import training
+from ..reduction.training_samples import training_samples
 from ..snapshots import Snapshots
 
 
@@ -67,7 +67,7 @@ def with_starts(model: PosingModel, near: Snapshots, unjudged: NDArray[np.bool_]
 
     unjudged : (k,), which of the model's own training samples stay: those that do not judge it
     """
-    parameters, coordinates = training(model.problem, model.subspace, near)
+    parameters, coordinates = training_samples(model.problem, model.subspace, near)
     return replace(
         model,
         training_parameters=np.vstack([model.training_parameters[unjudged], parameters]),

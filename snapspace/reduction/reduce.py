@@ -11,6 +11,7 @@ from ..snapshots import Snapshots
 from ..subspace import AffineSubspace
 from ..subspace.orthonormality import check_orthonormal
 from ..thread_count import checked_threads
+from .check_attached import check_attached
 from .energy_choice import Energy, chosen_energy, fewest_snapshots
 from .full_energy import FullBlends, FullEnergy, full_blends, full_energy
 from .handle_quadric import handle_quadric
@@ -19,7 +20,7 @@ from .posing_model import PosingModel
 from .quartic import PoseQuartics, Quartic, pose_quartics, reduced_quartic
 from .quartic_cost import warn_of_long_quartics
 from .shown_surface import surface_in
-from .training import check_attached, training
+from .training_samples import training_samples
 
 
 @overload
@@ -140,7 +141,7 @@ def reduce(
     _check_snapshots(problem, subspace, energy, snapshots)
     if kind != "full":  # full models are in no file
         subspace = subspace.in_single_precision()
-    parameters, coordinates = training(problem, subspace, snapshots)
+    parameters, coordinates = training_samples(problem, subspace, snapshots)
     record = dict(provenance or {})
     if isinstance(problem, InterpolationProblem):
         blends: PoseQuartics | BlendedSum | FullBlends

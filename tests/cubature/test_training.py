@@ -13,14 +13,14 @@ from snapspace.cubature.elements import elements_of
 from snapspace.cubature.tets_by_force import tets_by_force
 from snapspace.cubature.training import Training
 from snapspace.reduction.handle_quadric import handle_quadric
-from snapspace.reduction.training import training as training_coordinates
+from snapspace.reduction.training_samples import training_samples
 
 
 def bar_states(snapshots: Snapshots, dimension: int) -> PosingStates:
     problem = snapshots.problem
     assert isinstance(problem, PosingProblem)
     subspace = snapshot_pca(snapshots, dimension=dimension)
-    coordinates = training_coordinates(problem, subspace, snapshots)[1]
+    coordinates = training_samples(problem, subspace, snapshots)[1]
     stiffness = 2.0 * handle_quadric(problem, subspace).K
     return PosingStates(problem, subspace, coordinates[1:31], stiffness)
 

@@ -1,4 +1,4 @@
-"""What every reduction needs: a check of the subspace, and the training data of its snapshots."""
+"""training_samples: what a reduction learns from snapshots."""
 
 from __future__ import annotations
 
@@ -12,18 +12,7 @@ from ..subspace import AffineSubspace
 FloatArray = NDArray[np.float64]
 
 
-def check_attached(
-    problem: PosingProblem | InterpolationProblem, subspace: AffineSubspace, *, who: str
-) -> None:
-    """ValueError of `who` unless the subspace goes through the problem's tau."""
-    if subspace.tau.shape != problem.base.shape or not np.array_equal(subspace.tau, problem.tau):
-        raise ValueError(
-            f"{who}: the subspace is not attached to the problem's reference shape: the rest shape "
-            "of posing, the mean shape of interpolation"
-        )
-
-
-def training(
+def training_samples(
     problem: PosingProblem | InterpolationProblem,
     subspace: AffineSubspace,
     snapshots: Snapshots | None,
