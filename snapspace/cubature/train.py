@@ -27,9 +27,9 @@ FloatArray = NDArray[np.float64]
 #: Default number of tets per dimension. On the Dragon, d = 120, solutions are then as close to the
 #: full ones as those of the exact energy.
 TETS_PER_DIMENSION = 8
-#: The same where that gives more than so many tets. With 1000 tets for 195 and 256 dimensions
-#: errors are up to half larger on five of six bodies. With 8 d they are a tenth smaller, and frames
-#: take a quarter longer.
+#: The same where that gives more than so many tets. With 1000 tets for 207 and 250 dimensions
+#: errors are 1.1 to 1.9 times as large on four bodies. With 8 d they are up to a fifth smaller, and
+#: frames take up to a quarter longer.
 MANY_TETS, FURTHER_TETS_PER_DIMENSION = 1000, 6.5
 #: The same for shells, whose membrane and bending each need their share. On Spot, 829 vertices, d =
 #: 120, thickness 3 % and 1.5 % of the diagonal, the cubature's part of live errors is 0.0008 and
