@@ -23,6 +23,7 @@ from snapspace import (
     validate,
 )
 from snapspace.cubature import BlendedCubature
+from snapspace.reduction import solved_coordinates
 from snapspace.validation import solved_reference
 
 from ..snapshots.bars import posing_bar
@@ -65,7 +66,8 @@ def test_the_error_of_all_tets_is_that_of_a_cubature_of_all_tets(
     full = reference(model)
     split = split_errors(model, full)
     exact = with_all_tets(model)
-    tight, live = _solved(exact, full, tolerance=1e-13), _solved(exact, full)
+    tight = solved_coordinates(exact, full.parameters, tolerance=1e-13)
+    live = solved_coordinates(exact, full.parameters)
     # bases in single precision are M-orthonormal to 1e-8
     wanted = pytest.approx(_errors(exact, full, tight), rel=1e-3, abs=5e-8)
     assert split.error_of_all_tets == wanted
@@ -77,16 +79,6 @@ def test_the_error_of_all_tets_is_that_of_a_cubature_of_all_tets(
     )
     np.testing.assert_array_equal(exact_split.stiffness, split.stiffness)
     np.testing.assert_array_equal(exact_split.subspace, split.subspace)
-
-
-def _solved(model: ReducedModel, full: Snapshots, **options: float) -> np.ndarray:
-    """Coordinates (k, d) of a session's solutions, each in one jump."""
-    session, coordinates = model.session(**options), []
-    for w in full.parameters:
-        session.reset()
-        session.set_parameters(w)
-        coordinates.append(session.q)
-    return np.array(coordinates)
 
 
 def _rows(model: ReducedModel, full: Snapshots) -> np.ndarray:
