@@ -23,11 +23,11 @@ class DragExtrapolation {
     return count_ > 0 && std::equal(q, q + d, frames_[0].q.begin());
   }
 
-  /// Extrapolates q (d) to these inputs if q is the last frame and the inputs continue its path;
-  /// otherwise q is unchanged.
+  /// Extrapolates q (d), the last frame, to these inputs if they continue its path; otherwise q is
+  /// unchanged.
   void extrapolate(int d, const double* inputs, double* q) const {
     const auto& [last, first, second] = frames_;
-    if (count_ < kFrames || !ends_at(d, q)) return;
+    if (count_ < kFrames) return;
     const double a = place(first, inputs), b = place(second, inputs);
     if (!(steady(-a) && steady(a - b))) return;
     const double from_last = (1.0 - a) * (1.0 - b) / (a * b);

@@ -28,8 +28,10 @@ class FrameMinimizer {
   /// a jump the Hessian at tau is the better start.
   Report minimize(Objective& objective, const double* inputs, Method method, double* q,
                   const Termination& stop) {
-    if (!drag_.ends_at(d_, q)) minimizers_.forget();
-    drag_.extrapolate(d_, inputs, q);
+    if (drag_.ends_at(d_, q))
+      drag_.extrapolate(d_, inputs, q);
+    else
+      minimizers_.forget();
     const Report report = hessian_is_expensive_ && method == Method::bfgs
                               ? minimizers_.continue_bfgs(objective, q, stop)
                               : minimizers_.minimize(objective, method, q, stop);

@@ -116,7 +116,7 @@ int snapspace_shell_moduli(const char* kind, int elements, const double* points,
                            const double* shell_moduli, const double* area_products, double* moduli);
 
 /* A posing session with a cubature instead of a quartic; copies its arrays too. Its solves are
- * fastest with SNAPSPACE_BFGS, which continues with the inverse Hessian of the last frame. */
+ * fastest with SNAPSPACE_BFGS, which continues a drag with the last frame's inverse Hessian. */
 snapspace_session* snapspace_create_posing_cubature(int dimension, int handles,
                                                     const snapspace_cubature* cubature,
                                                     const double* K, const double* L,

@@ -23,6 +23,7 @@ from snapspace import (
     validate,
 )
 from snapspace.cubature import BlendedCubature
+from snapspace.mesh import mass_norms
 from snapspace.reduction import solved_coordinates
 from snapspace.validation import solved_reference
 
@@ -81,26 +82,18 @@ def test_the_error_of_all_tets_is_that_of_a_cubature_of_all_tets(
     np.testing.assert_array_equal(exact_split.subspace, split.subspace)
 
 
-def _rows(model: ReducedModel, full: Snapshots) -> np.ndarray:
-    return full.displacements.shifted(model.problem.base - model.subspace.tau).array()
-
-
 def _sizes(model: ReducedModel, full: Snapshots) -> np.ndarray:
-    return np.sqrt([_square(model, row) for row in _rows(model, full)])
+    offset = model.problem.base - model.subspace.tau
+    return mass_norms(model.subspace.mass, full.displacements.shifted(offset).array())
 
 
 def _errors(model: ReducedModel, full: Snapshots, solved: np.ndarray) -> np.ndarray:
     rows = full.displacements.shifted(model.problem.base - model.subspace.tau)
     projections = model.subspace.row_coordinates(rows)
-    inside = projections @ model.subspace.basis.T
-    least = [np.sqrt(_square(model, row)) for row in _rows(model, full) - inside]
+    missed = rows.array() - projections @ model.subspace.basis.T
+    least = mass_norms(model.subspace.mass, missed)
     errors: np.ndarray = np.hypot(least, np.linalg.norm(solved - projections, axis=1))
     return errors / _sizes(model, full)
-
-
-def _square(model: ReducedModel, displacement: np.ndarray) -> float:
-    shape = displacement.reshape(-1, 3)
-    return float((shape * (model.subspace.mass @ shape)).sum())
 
 
 def test_the_first_two_parts_are_at_right_angles(graded_model: PosingModel) -> None:
