@@ -636,15 +636,23 @@ class TetFunction(ReducedFunction):
         Weighted Hessians (r, 9, 9) of the tets by their displacement gradients, float32.
         """
 
+    def stresses(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float32]:
+        """Weighted stresses (r, 9) of the tets, float32."""
+
+class LocalRows:
+    """Displacement gradients of tets in clusters with local coordinates."""
+
+    def __init__(self, sizes: NDArray[numpy.int32], rows: NDArray[numpy.float32], modes: NDArray[numpy.float32]) -> None: ...
+
 class Cubature(TetFunction):
     """Elastic energy as a weighted sum over few tets."""
 
-    def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material) -> None: ...
+    def __init__(self, rows: NDArray[numpy.float32] | LocalRows, weights: NDArray[numpy.float64], material: Material) -> None: ...
 
 class CubatureLoop(PosingLoop):
     """The live loop of posing with a cubature instead of a quartic."""
 
-    def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64]) -> None: ...
+    def __init__(self, rows: NDArray[numpy.float32] | LocalRows, weights: NDArray[numpy.float64], material: Material, K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64]) -> None: ...
 
 class BlendedFunction(TetFunction):
     """Blended energy of several poses."""
@@ -654,7 +662,7 @@ class BlendedFunction(TetFunction):
 class BlendedCubature(BlendedFunction):
     """Blended energy of several poses as a weighted sum over few tets."""
 
-    def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, corners: NDArray[numpy.float64]) -> None: ...
+    def __init__(self, rows: NDArray[numpy.float32] | LocalRows, weights: NDArray[numpy.float64], material: Material, corners: NDArray[numpy.float64]) -> None: ...
 
 class BlendedStars(BlendedFunction):
     """
@@ -666,7 +674,7 @@ class BlendedStars(BlendedFunction):
 class BlendedCubatureLoop(BlendingLoop):
     """The live loop of blending with a cubature instead of quartics."""
 
-    def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, corners: NDArray[numpy.float64]) -> None: ...
+    def __init__(self, rows: NDArray[numpy.float32] | LocalRows, weights: NDArray[numpy.float64], material: Material, corners: NDArray[numpy.float64]) -> None: ...
 
 class BlendedStarsLoop(BlendingLoop):
     """The live loop of blending with stars instead of quartics."""

@@ -50,6 +50,9 @@ class TetsOf : public FunctionOf<Function, Interface> {
   void curvatures(const double* q, float* hessians) override {
     this->function_.curvatures(q, hessians);
   }
+  void stresses(const double* q, float* stresses) override {
+    this->function_.stresses(q, stresses);
+  }
 };
 
 template <class Function>
@@ -119,13 +122,19 @@ online::Storage storage(bool single) {
   return single ? online::Storage::single_precision : online::Storage::double_precision;
 }
 
+online::RowClusters clusters_of(const CubatureArrays& arrays) {
+  return {arrays.clusters.count, arrays.clusters.sizes, arrays.clusters.modes};
+}
+
 Cubature make_cubature(const CubatureArrays& arrays) {
-  return {arrays.dimension, arrays.tets, arrays.rows, arrays.weights, arrays.material};
+  return {arrays.dimension, arrays.tets,     arrays.rows,
+          arrays.weights,   arrays.material, clusters_of(arrays)};
 }
 
 BlendedCubature make_cubature(const CubatureArrays& arrays, const PoseArrays& poses) {
-  return {arrays.dimension, arrays.tets,     arrays.rows,
-          arrays.weights,   arrays.material, {poses.poses, poses.corners, poses.tau}};
+  return {arrays.dimension,   arrays.tets,     arrays.rows,
+          arrays.weights,     arrays.material, {poses.poses, poses.corners, poses.tau},
+          clusters_of(arrays)};
 }
 
 BlendedStars make_stars(const StarArrays& arrays) {

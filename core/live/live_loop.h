@@ -27,6 +27,8 @@ class TetFunction : public ReducedFunction {
   [[nodiscard]] virtual int tets() const = 0;
   /// Hessians of the tets' energies at q (d) by their displacement gradients, tets x 9 x 9.
   virtual void curvatures(const double* q, float* hessians) = 0;
+  /// Stresses of the tets at q (d), tets x 9.
+  virtual void stresses(const double* q, float* stresses) = 0;
 };
 
 /// A live solver.
@@ -52,12 +54,21 @@ class LiveSolver : public ReducedFunction {
   virtual void set_inputs(const double* inputs) = 0;
 };
 
+/// Clusters of tets with local coordinates, if count > 0; see online::RowClusters.
+struct ClusterArrays {
+  static constexpr int kTets = 8;
+  int count = 0;
+  const int* sizes = nullptr;
+  const float* modes = nullptr;
+};
+
 /// Sizes and arrays of a cubature; see online::Cubature.
 struct CubatureArrays {
   int dimension, tets;
   const float* rows;
   const double* weights;
   TetMaterial material;
+  ClusterArrays clusters = {};
 };
 
 /// Some tets of a body in several poses; see online::PoseTets.

@@ -12,8 +12,9 @@
 namespace snapspace::online {
 
 /// BFGS on the inverse Hessian (Nocedal & Wright 2006, alg. 6.1) with a line search for the weak
-/// Wolfe conditions, which keep the inverse positive definite. The constructor allocates all
-/// memory.
+/// Wolfe conditions, which keep the inverse positive definite. An iteration passes over the inverse
+/// once: the update of the iteration before is done on the way, and the next direction follows from
+/// the product with the new gradient. The constructor allocates all memory.
 class Bfgs {
  public:
   explicit Bfgs(int capacity)
@@ -23,16 +24,23 @@ class Bfgs {
         trial_(capacity),
         trial_gradient_(capacity),
         change_(capacity),
-        product_(capacity) {}
+        product_(capacity),
+        update_step_(capacity),
+        update_product_(capacity) {}
 
-  /// Minimises objective.value_and_gradient(q, g) over q (d), in place. The value at q never gets
-  /// worse or non-finite.
-  /// @param initial_inverse  d x d, symmetric positive definite
-  Report minimize(Objective& objective, int d, double* q, const double* initial_inverse,
+  /// Starts the approximation from this inverse, d x d, symmetric positive definite.
+  void start_from(int d, const double* inverse) {
+    std::copy_n(inverse, static_cast<std::size_t>(d) * d, inverse_.begin());
+    pending_ = false;
+  }
+
+  /// Minimises objective.value_and_gradient(q, g) over q (d), in place, with the present
+  /// approximation, which is kept for the next minimisation. The value at q never gets worse or
+  /// non-finite.
+  /// @param fallback  d x d, symmetric positive definite: what the approximation starts from again
+  ///                  if a line search fails
+  Report minimize(Objective& objective, int d, double* q, const double* fallback,
                   const Termination& stop);
-
-  /// The approximation at the end of the last minimisation, d x d.
-  [[nodiscard]] const std::vector<double>& inverse() const { return inverse_; }
 
  private:
   static constexpr int kMaxTrials = 40;
@@ -41,16 +49,22 @@ class Bfgs {
   bool line_search(Objective& objective, const double* q, Report& report, double slope,
                    const Termination& stop);
   double evaluate(Objective& objective, const double* q, double step, Report& report);
+  [[gnu::noinline]] void multiply(const double* gradient);  // shared: a page has little room
   void set_direction();
-  void update();
+  void advance();
 
   int d_ = 0;
   std::vector<double> inverse_, gradient_, direction_, trial_, trial_gradient_, change_, product_;
+  // The last update is done with the next product. It adds to entry (i, j) of the inverse
+  // weight * s_i s_j - rho * (s_i p_j + p_i s_j).
+  bool pending_ = false;
+  double weight_ = 0.0, rho_ = 0.0;
+  std::vector<double> update_step_, update_product_;  // s, p
   double step_ = 1.0;
   double trial_value_ = 0.0;
 };
 
-inline Report Bfgs::minimize(Objective& objective, int d, double* q, const double* initial_inverse,
+inline Report Bfgs::minimize(Objective& objective, int d, double* q, const double* fallback,
                              const Termination& stop) {
   d_ = d;
   Report report{Status::max_iterations, 0, 1, 0.0, 0.0};
@@ -60,15 +74,10 @@ inline Report Bfgs::minimize(Objective& objective, int d, double* q, const doubl
     report.status = Status::not_finite;
     return report;
   }
-  const auto reset = [&] {
-    std::copy(initial_inverse, initial_inverse + static_cast<std::size_t>(d_) * d_,
-              inverse_.begin());
-  };
-  reset();
-  bool pristine = true;
+  set_direction();
+  bool pristine = false;
   int idle_steps = 0;  // consecutive accepted steps that did not change the value
   while (report.iterations < stop.max_iterations) {
-    set_direction();
     const double slope = dot(gradient_.data(), direction_.data(), d_);
     if (slope == 0.0) {
       report.status = Status::converged;
@@ -81,13 +90,17 @@ inline Report Bfgs::minimize(Objective& objective, int d, double* q, const doubl
       }
       // Either the approximation is bad, which a restart cures once, or values no longer resolve a
       // decrease.
-      if (pristine) {
-        report.status = terminates(stop, report, 0.0, 0.0, std::sqrt(dot(q, q, d_)))
-                            ? Status::converged
-                            : Status::line_search_failed;
+      const bool unmoved = pristine || report.iterations == 0;
+      if (unmoved && terminates(stop, report, 0.0, 0.0, std::sqrt(dot(q, q, d_)))) {
+        report.status = Status::converged;
         break;
       }
-      reset();
+      if (pristine) {
+        report.status = Status::line_search_failed;
+        break;
+      }
+      start_from(d_, fallback);
+      set_direction();
       pristine = true;
       continue;
     }
@@ -95,12 +108,12 @@ inline Report Bfgs::minimize(Objective& objective, int d, double* q, const doubl
     const double decrease = report.value - trial_value_;
     report.value = trial_value_;
     idle_steps = decrease > 0.0 ? 0 : idle_steps + 1;
-    update();
+    const double step = step_ * std::sqrt(dot(direction_.data(), direction_.data(), d_));
+    advance();
     pristine = false;
     std::copy_n(trial_.begin(), d_, q);
     gradient_.swap(trial_gradient_);
     report.gradient_norm = std::sqrt(dot(gradient_.data(), gradient_.data(), d_));
-    const double step = step_ * std::sqrt(dot(direction_.data(), direction_.data(), d_));
     if (terminates(stop, report, decrease, step, std::sqrt(dot(q, q, d_)))) {
       report.status = Status::converged;
       break;
@@ -154,30 +167,53 @@ inline bool Bfgs::line_search(Objective& objective, const double* q, Report& rep
   return true;
 }
 
-inline void Bfgs::set_direction() {
-  for (int i = 0; i < d_; ++i)
-    direction_[i] = -dot(inverse_.data() + static_cast<std::size_t>(i) * d_, gradient_.data(), d_);
+/// product_ = inverse * gradient, after the pending update.
+inline void Bfgs::multiply(const double* gradient) {
+  for (int i = 0; i < d_; ++i) {
+    double* row = inverse_.data() + static_cast<std::size_t>(i) * d_;
+    if (pending_) {
+      const double s = update_step_[i], p = update_product_[i];
+      const double of_step = weight_ * s - rho_ * p, of_product = -rho_ * s;
+      for (int j = 0; j < d_; ++j)
+        row[j] += of_step * update_step_[j] + of_product * update_product_[j];
+    }
+    product_[i] = dot(row, gradient, d_);
+  }
+  pending_ = false;
 }
 
-/// H += (1 + y.Hy / s.y) s s^T / s.y - (Hy s^T + s (Hy)^T) / s.y, with s the step and y the change
-/// of the gradient.
-inline void Bfgs::update() {
+inline void Bfgs::set_direction() {
+  multiply(gradient_.data());
+  for (int i = 0; i < d_; ++i) direction_[i] = -product_[i];
+}
+
+/// Updates the inverse H by H += (1 + y.Hy / s.y) s s^T / s.y - (Hy s^T + s (Hy)^T) / s.y, with s
+/// the accepted step and y the change of the gradient, and sets the direction at the trial point,
+/// -H g. The old direction is -H times the old gradient, so that H g also gives H y.
+inline void Bfgs::advance() {
+  multiply(trial_gradient_.data());
   for (int i = 0; i < d_; ++i) change_[i] = trial_gradient_[i] - gradient_[i];
   const double sy = step_ * dot(direction_.data(), change_.data(), d_);
   const double yy = dot(change_.data(), change_.data(), d_);
   const double ss = step_ * step_ * dot(direction_.data(), direction_.data(), d_);
   // Without enough curvature (possible only if the search ended early) the old inverse is kept.
-  if (!(sy > 1e-14 * std::sqrt(ss * yy))) return;
-  for (int i = 0; i < d_; ++i)
-    product_[i] = dot(inverse_.data() + static_cast<std::size_t>(i) * d_, change_.data(), d_);
-  const double rho = 1.0 / sy;
-  const double ss_weight = rho * (1.0 + rho * dot(change_.data(), product_.data(), d_));
-  for (int i = 0; i < d_; ++i) {
-    double* row = inverse_.data() + static_cast<std::size_t>(i) * d_;
-    const double s_i = step_ * direction_[i];
-    const double a = ss_weight * s_i - rho * product_[i];
-    for (int j = 0; j < d_; ++j) row[j] += a * step_ * direction_[j] - rho * s_i * product_[j];
+  if (!(sy > 1e-14 * std::sqrt(ss * yy))) {
+    for (int i = 0; i < d_; ++i) direction_[i] = -product_[i];
+    return;
   }
+  for (int i = 0; i < d_; ++i) {
+    update_step_[i] = step_ * direction_[i];
+    update_product_[i] = product_[i] + direction_[i];
+  }
+  rho_ = 1.0 / sy;
+  weight_ = rho_ * (1.0 + rho_ * dot(change_.data(), update_product_.data(), d_));
+  pending_ = true;
+  const double along_step = dot(update_step_.data(), trial_gradient_.data(), d_);
+  const double along_product = dot(update_product_.data(), trial_gradient_.data(), d_);
+  const double of_step = weight_ * along_step - rho_ * along_product;
+  for (int i = 0; i < d_; ++i)
+    direction_[i] =
+        -(product_[i] + of_step * update_step_[i] - rho_ * along_step * update_product_[i]);
 }
 
 }  // namespace snapspace::online

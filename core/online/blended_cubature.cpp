@@ -9,7 +9,7 @@
 #include "material/pose_blend.h"
 #include "material/principal_hessian.h"
 #include "material/shell_rest.h"
-#include "online/block_hessians.h"
+#include "online/block_sums.h"
 #include "online/tet_density.h"
 
 namespace snapspace::online {
@@ -30,8 +30,9 @@ void gradient_between(const RestTet& rest, const double* from, const double* to,
 }  // namespace
 
 BlendedCubature::BlendedCubature(int dimension, int tets, const float* rows, const double* weights,
-                                 const TetMaterial& material, const PoseTets& poses)
-    : rows_(dimension, tets, rows),
+                                 const TetMaterial& material, const PoseTets& poses,
+                                 const RowClusters& clusters)
+    : rows_(dimension, tets, rows, clusters),
       second_half_(static_cast<std::size_t>(dimension) * dimension),
       kind_(material.kind),
       poses_(poses.poses),
@@ -100,30 +101,19 @@ void BlendedCubature::set_weights(const double* weights) {
   }
 }
 
-void BlendedCubature::gradients(int block, Tets G[3][3]) const {
-  rows_.gradients(block, G);
-  for (int e = 0; e < 9; ++e) G[e / 3][e % 3] += offsets_[9 * block + e];
+/// Displacement gradients against pose 0, from those of the modes.
+void BlendedCubature::add_offsets(int block, const Tets modes[3][3], Tets G[3][3]) const {
+  for (int e = 0; e < 9; ++e) G[e / 3][e % 3] = modes[e / 3][e % 3] + offsets_[9 * block + e];
 }
 
 double BlendedCubature::value_and_gradient(const double* q, double* gradient) {
-  rows_.begin(q);
-  double values[2] = {0.0, 0.0};
-  run_halves(rows_.size() < kMinSharedSize ? nullptr : half_runner_, [&](int half) {
-    double value = 0.0;
-    for (const int b : rows_.half(half)) {
-      Tets G[3][3], P[3][3];
-      gradients(b, G);
-      value += lane_sum(block_value_and_stress(b, G, P));
-      rows_.add_stresses(half, b, P);
-    }
-    values[half] = value;
-  });
-  rows_.end(gradient);
-  return values[0] + values[1];
+  return block_sum(rows_, half_runner_, q, energy_of(*this), gradient);
 }
 
-BlendedCubature::Tets BlendedCubature::block_value_and_stress(int block, const Tets G[3][3],
-                                                              Tets P[3][3]) const {
+BlendedCubature::Tets BlendedCubature::block_energy(int block, const Tets modes[3][3],
+                                                    Tets P[3][3]) const {
+  Tets G[3][3];
+  add_offsets(block, modes, G);
   if (collapses_)
     return Densities::with(kind_, [&]<class Density>() {
       if constexpr (PoseBlend<Density>::kCollapses)
@@ -174,9 +164,10 @@ void BlendedCubature::shell_curvature(int block, int lane, const double G[3][3],
 }
 
 /// Hessians (9 x 9) of a block's tets for the weights of the poses; zero for lanes without a tet.
-void BlendedCubature::block_curvatures(int block, Tets hessian[9][9]) const {
+void BlendedCubature::block_curvatures(int block, const Tets modes[3][3],
+                                       Tets hessian[9][9]) const {
   Tets G[3][3];
-  gradients(block, G);
+  add_offsets(block, modes, G);
   for (int f = 0; f < 9; ++f) std::fill_n(hessian[f], 9, Tets(0.0));
   for (int lane = 0; lane < rows_.lanes(block); ++lane) {
     double own[3][3], sum[9][9] = {};
@@ -195,15 +186,18 @@ double BlendedCubature::derivatives(const double* q, double* gradient, double* h
   const double value = value_and_gradient(q, gradient);
   const auto d = static_cast<std::size_t>(dimension());
   std::fill_n(hessian, d * d, 0.0);
-  const auto curvatures = [this](int block, Tets C[9][9]) { block_curvatures(block, C); };
-  add_block_hessians(rows_, half_runner_, second_half_, curvatures, hessian);
+  add_block_hessians(rows_, half_runner_, second_half_, curvatures_of(*this), hessian);
   return value;
 }
 
 void BlendedCubature::curvatures(const double* q, float* hessians) {
   rows_.begin(q);
-  store_block_curvatures(
-      rows_, [this](int block, Tets C[9][9]) { block_curvatures(block, C); }, hessians);
+  store_block_curvatures(rows_, curvatures_of(*this), hessians);
+}
+
+void BlendedCubature::stresses(const double* q, float* stresses) {
+  rows_.begin(q);
+  store_block_stresses(rows_, energy_of(*this), stresses);
 }
 
 }  // namespace snapspace::online

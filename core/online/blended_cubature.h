@@ -26,8 +26,10 @@ class BlendedCubature {
   /// @param rows  tets x 9 x dimension, displacement gradients of the modes against pose 0
   /// @param weights  tets, the volume in pose 0 that each represents
   /// @param material  of these tets; of a shell that of pose 0, see shell_pose_materials
+  /// @param clusters  if given, rows are those of local coordinates, see TetRows
   BlendedCubature(int dimension, int tets, const float* rows, const double* weights,
-                  const TetMaterial& material, const PoseTets& poses);
+                  const TetMaterial& material, const PoseTets& poses,
+                  const RowClusters& clusters = {});
 
   [[nodiscard]] int poses() const { return poses_; }
   [[nodiscard]] int dimension() const { return rows_.dimension(); }
@@ -52,15 +54,19 @@ class BlendedCubature {
   /// Weighted Hessians of the tets' energies at q (d) by their displacement gradients, tets x 9 x
   /// 9.
   void curvatures(const double* q, float* hessians);
+  /// Weighted stresses of the tets at q (d), tets x 9.
+  void stresses(const double* q, float* stresses);
+
+  using Tets = TetRows::Tets;
+  /// Energies of a block's tets, and their stresses, by the displacement gradients of the modes;
+  /// see TetRows::sum.
+  Tets block_energy(int block, const Tets modes[3][3], Tets P[3][3]) const;
+  /// Hessians (9 x 9) of a block's tets; see TetRows::add_hessian.
+  void block_curvatures(int block, const Tets modes[3][3], Tets hessian[9][9]) const;
 
  private:
-  using Tets = TetRows::Tets;
-
   void set_tet(int tet, double weight, const double* moduli, const PoseTets& poses);
-  /// Displacement gradients against pose 0.
-  void gradients(int block, Tets G[3][3]) const;
-  [[nodiscard]] Tets block_value_and_stress(int block, const Tets G[3][3], Tets P[3][3]) const;
-  void block_curvatures(int block, Tets hessian[9][9]) const;
+  void add_offsets(int block, const Tets modes[3][3], Tets G[3][3]) const;
   void add_curvature(int tet, int pose, const double G[3][3], double hessian[9][9]) const;
   void shell_curvature(int block, int lane, const double G[3][3], double hessian[9][9]) const;
 

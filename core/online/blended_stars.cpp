@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "material/element_hessian.h"
-#include "online/block_hessians.h"
+#include "online/block_sums.h"
 #include "online/tet_density.h"
 
 namespace snapspace::online {
@@ -56,9 +56,16 @@ void BlendedStars::set_weights(const double* weights) {
   }
 }
 
-void BlendedStars::gradients(int block, Tets G[3][3]) const {
-  rows_.gradients(block, G);
-  for (int e = 0; e < 9; ++e) G[e / 3][e % 3] += origins_[9 * block + e];
+/// The nine numbers of a block's stars, from those of the modes.
+void BlendedStars::add_origins(int block, const Tets modes[3][3], Tets G[3][3]) const {
+  for (int e = 0; e < 9; ++e) G[e / 3][e % 3] = modes[e / 3][e % 3] + origins_[9 * block + e];
+}
+
+BlendedStars::Tets BlendedStars::block_energy(int block, const Tets modes[3][3],
+                                              Tets P[3][3]) const {
+  Tets G[3][3];
+  add_origins(block, modes, G);
+  return value_and_stress(kind_, moduli_.data() + block * moduli_count_, G, P);
 }
 
 /// Adds the gradient of the quadratic form, and returns its value.
@@ -77,26 +84,14 @@ double BlendedStars::add_form(const double* q, double* gradient) const {
 }
 
 double BlendedStars::value_and_gradient(const double* q, double* gradient) {
-  rows_.begin(q);
-  double values[2] = {0.0, 0.0};
-  run_halves(rows_.size() < kMinSharedSize ? nullptr : half_runner_, [&](int half) {
-    double value = 0.0;
-    for (const int b : rows_.half(half)) {
-      Tets G[3][3], P[3][3];
-      gradients(b, G);
-      value += lane_sum(value_and_stress(kind_, moduli_.data() + b * moduli_count_, G, P));
-      rows_.add_stresses(half, b, P);
-    }
-    values[half] = value;
-  });
-  rows_.end(gradient);
-  return values[0] + values[1] + add_form(q, gradient);
+  const double value = block_sum(rows_, half_runner_, q, energy_of(*this), gradient);
+  return value + add_form(q, gradient);
 }
 
 /// Weighted Hessians (9 x 9) of a block's stars; zero for lanes without a star.
-void BlendedStars::block_curvatures(int block, Tets hessian[9][9]) const {
+void BlendedStars::block_curvatures(int block, const Tets modes[3][3], Tets hessian[9][9]) const {
   Tets G[3][3];
-  gradients(block, G);
+  add_origins(block, modes, G);
   for (int f = 0; f < 9; ++f) std::fill_n(hessian[f], 9, Tets(0.0));
   for (int lane = 0; lane < rows_.lanes(block); ++lane) {
     double moduli[kMaxModuli], gradient[3][3], curvature[9][9];
@@ -113,15 +108,18 @@ double BlendedStars::derivatives(const double* q, double* gradient, double* hess
   const auto d = static_cast<std::size_t>(dimension()), stride = form_.size() / (capacity() + 1);
   for (std::size_t i = 0; i < d; ++i)
     for (std::size_t j = 0; j < d; ++j) hessian[i * d + j] = 2.0 * form_[i * stride + j];
-  const auto curvatures = [this](int block, Tets C[9][9]) { block_curvatures(block, C); };
-  add_block_hessians(rows_, half_runner_, second_half_, curvatures, hessian);
+  add_block_hessians(rows_, half_runner_, second_half_, curvatures_of(*this), hessian);
   return value;
 }
 
 void BlendedStars::curvatures(const double* q, float* hessians) {
   rows_.begin(q);
-  store_block_curvatures(
-      rows_, [this](int block, Tets C[9][9]) { block_curvatures(block, C); }, hessians);
+  store_block_curvatures(rows_, curvatures_of(*this), hessians);
+}
+
+void BlendedStars::stresses(const double* q, float* stresses) {
+  rows_.begin(q);
+  store_block_stresses(rows_, energy_of(*this), stresses);
 }
 
 }  // namespace snapspace::online

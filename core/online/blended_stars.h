@@ -54,12 +54,18 @@ class BlendedStars {
   /// Weighted Hessians of the stars' energies at q (d) by their nine numbers, pose by pose: poses x
   /// stars x 9 x 9. The quadratic form is not part of them.
   void curvatures(const double* q, float* hessians);
+  /// Weighted derivatives of the stars' energies by these numbers, poses x stars x 9.
+  void stresses(const double* q, float* stresses);
+
+  using Tets = TetRows::Tets;
+  /// Energies of a block's stars, and their derivatives by the nine numbers of the modes; see
+  /// TetRows::sum.
+  Tets block_energy(int block, const Tets modes[3][3], Tets P[3][3]) const;
+  /// Hessians (9 x 9) of a block's stars; see TetRows::add_hessian.
+  void block_curvatures(int block, const Tets modes[3][3], Tets hessian[9][9]) const;
 
  private:
-  using Tets = TetRows::Tets;
-
-  void gradients(int block, Tets G[3][3]) const;
-  void block_curvatures(int block, Tets hessian[9][9]) const;
+  void add_origins(int block, const Tets modes[3][3], Tets G[3][3]) const;
   double add_form(const double* q, double* gradient) const;
 
   TetRows rows_;

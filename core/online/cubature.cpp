@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "material/element_hessian.h"
-#include "online/block_hessians.h"
+#include "online/block_sums.h"
 #include "online/tet_density.h"
 
 namespace snapspace::online {
 
 Cubature::Cubature(int dimension, int tets, const float* rows, const double* weights,
-                   const TetMaterial& material)
-    : rows_(dimension, tets, rows),
+                   const TetMaterial& material, const RowClusters& clusters)
+    : rows_(dimension, tets, rows, clusters),
       second_half_(static_cast<std::size_t>(dimension) * dimension),
       kind_(material.kind),
       moduli_count_(material_moduli(material.kind)),
@@ -23,28 +23,17 @@ Cubature::Cubature(int dimension, int tets, const float* rows, const double* wei
   }
 }
 
+Cubature::Tets Cubature::block_energy(int block, const Tets G[3][3], Tets P[3][3]) const {
+  return value_and_stress(kind_, moduli_.data() + block * moduli_count_, G, P);
+}
+
 double Cubature::value_and_gradient(const double* q, double* gradient) {
-  rows_.begin(q);
-  double values[2] = {0.0, 0.0};
-  run_halves(rows_.size() < kMinSharedSize ? nullptr : half_runner_, [&](int half) {
-    double value = 0.0;
-    for (const int b : rows_.half(half)) {
-      Tets G[3][3], P[3][3];
-      rows_.gradients(b, G);
-      value += lane_sum(value_and_stress(kind_, moduli_.data() + b * moduli_count_, G, P));
-      rows_.add_stresses(half, b, P);
-    }
-    values[half] = value;
-  });
-  rows_.end(gradient);
-  return values[0] + values[1];
+  return block_sum(rows_, half_runner_, q, energy_of(*this), gradient);
 }
 
 /// Weighted Hessians (9 x 9) of a block's tets by their displacement gradients; zero for lanes
 /// without a tet.
-void Cubature::block_curvatures(int block, Tets hessian[9][9]) const {
-  Tets G[3][3];
-  rows_.gradients(block, G);
+void Cubature::block_curvatures(int block, const Tets G[3][3], Tets hessian[9][9]) const {
   for (int f = 0; f < 9; ++f) std::fill_n(hessian[f], 9, Tets(0.0));
   for (int lane = 0; lane < rows_.lanes(block); ++lane) {
     double moduli[kMaxModuli], gradient[3][3], curvature[9][9];
@@ -59,15 +48,18 @@ double Cubature::derivatives(const double* q, double* gradient, double* hessian)
   const double value = value_and_gradient(q, gradient);
   const auto d = static_cast<std::size_t>(dimension());
   std::fill_n(hessian, d * d, 0.0);
-  const auto curvatures = [this](int block, Tets C[9][9]) { block_curvatures(block, C); };
-  add_block_hessians(rows_, half_runner_, second_half_, curvatures, hessian);
+  add_block_hessians(rows_, half_runner_, second_half_, curvatures_of(*this), hessian);
   return value;
 }
 
 void Cubature::curvatures(const double* q, float* hessians) {
   rows_.begin(q);
-  store_block_curvatures(
-      rows_, [this](int block, Tets C[9][9]) { block_curvatures(block, C); }, hessians);
+  store_block_curvatures(rows_, curvatures_of(*this), hessians);
+}
+
+void Cubature::stresses(const double* q, float* stresses) {
+  rows_.begin(q);
+  store_block_stresses(rows_, energy_of(*this), stresses);
 }
 
 }  // namespace snapspace::online

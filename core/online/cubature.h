@@ -21,8 +21,9 @@ class Cubature {
   /// @param rows  tets x 9 x dimension; entry 3 a + b of the second index is d u_a / d x_b
   /// @param weights  tets, the volume that each represents
   /// @param material  of these tets
+  /// @param clusters  if given, rows are those of local coordinates, see TetRows
   Cubature(int dimension, int tets, const float* rows, const double* weights,
-           const TetMaterial& material);
+           const TetMaterial& material, const RowClusters& clusters = {});
 
   [[nodiscard]] int dimension() const { return rows_.dimension(); }
   [[nodiscard]] int capacity() const { return rows_.capacity(); }
@@ -43,12 +44,16 @@ class Cubature {
   /// Weighted Hessians of the tets' energies at q (d) by their displacement gradients, tets x 9 x
   /// 9.
   void curvatures(const double* q, float* hessians);
+  /// Weighted stresses of the tets at q (d), tets x 9.
+  void stresses(const double* q, float* stresses);
+
+  using Tets = TetRows::Tets;
+  /// Energies of a block's tets, and their stresses; see TetRows::sum.
+  Tets block_energy(int block, const Tets G[3][3], Tets P[3][3]) const;
+  /// Hessians (9 x 9) of a block's tets; see TetRows::add_hessian.
+  void block_curvatures(int block, const Tets G[3][3], Tets hessian[9][9]) const;
 
  private:
-  using Tets = TetRows::Tets;
-
-  void block_curvatures(int block, Tets hessian[9][9]) const;
-
   TetRows rows_;
   HalfRunner* half_runner_ = nullptr;
   std::vector<double> second_half_;  // of the blocks: their Hessian

@@ -26,7 +26,6 @@ class Minimizers {
         bfgs_(capacity),
         hessian_(static_cast<std::size_t>(capacity) * capacity),
         inverse_(hessian_.size()),
-        last_(hessian_.size()),
         scratch_(hessian_.size()),
         origin_(capacity),
         gradient_(capacity) {}
@@ -43,7 +42,7 @@ class Minimizers {
       for (int i = 0; i < d; ++i) hessian_[diagonal(i)] += shift;
       start = Start::shifted;
     }
-    keep(inverse_);
+    forget();
     return start;
   }
 
@@ -51,6 +50,7 @@ class Minimizers {
   /// BFGS with its inverse as the first approximation (paper, sec. 6.2).
   Report minimize(Objective& objective, Method method, double* q, const Termination& stop) {
     if (method == Method::newton) return newton_.minimize(objective, d_, q, hessian_.data(), stop);
+    forget();
     return bfgs_.minimize(objective, d_, q, inverse_.data(), stop);
   }
 
@@ -81,22 +81,13 @@ class Minimizers {
   }
 
   /// The next BFGS starts from the inverse at tau again.
-  void forget() { keep(inverse_); }
+  void forget() { bfgs_.start_from(d_, inverse_.data()); }
 
   /// BFGS from q (d), in place, continued with the approximation of the last frame if that
-  /// converged. If its line search fails, BFGS runs again from the inverse at tau; the report
-  /// counts both runs.
+  /// converged. If its line search fails, it starts from the inverse at tau.
   Report continue_bfgs(Objective& objective, double* q, const Termination& stop) {
-    Report report = bfgs_.minimize(objective, d_, q, last_.data(), stop);
-    if (report.status == Status::line_search_failed) {
-      Termination rest = stop;
-      rest.max_iterations -= report.iterations;
-      rest.max_evaluations -= report.evaluations;
-      const Report again = bfgs_.minimize(objective, d_, q, inverse_.data(), rest);
-      report = {again.status, report.iterations + again.iterations,
-                report.evaluations + again.evaluations, again.value, again.gradient_norm};
-    }
-    keep(report.status == Status::converged ? bfgs_.inverse() : inverse_);
+    const Report report = bfgs_.minimize(objective, d_, q, inverse_.data(), stop);
+    if (report.status != Status::converged) forget();
     return report;
   }
 
@@ -115,14 +106,10 @@ class Minimizers {
     return invert_spd(inverse_.data(), d_, scratch_.data());
   }
 
-  void keep(const std::vector<double>& inverse) {
-    std::copy_n(inverse.data(), static_cast<std::size_t>(d_) * d_, last_.data());
-  }
-
   int d_ = 0;
   Newton newton_;
   Bfgs bfgs_;
-  std::vector<double> hessian_, inverse_, last_, scratch_;
+  std::vector<double> hessian_, inverse_, scratch_;
   std::vector<double> origin_, gradient_;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "online/displacement_rows.h"
+#include "online/read_cubature.h"
 #include "online/reconstruct.h"
 #include "online/session.h"
 
@@ -16,8 +17,10 @@ using snapspace::online::BlendedCubature;
 using snapspace::online::BlendedQuartic;
 using snapspace::online::BlendedStars;
 using snapspace::online::BlendingSolver;
+using snapspace::online::clusters_of;
 using snapspace::online::Cubature;
 using snapspace::online::InertialMinimizer;
+using snapspace::online::is_cubature;
 using snapspace::online::Method;
 using snapspace::online::Quartic;
 using snapspace::online::read_material;
@@ -34,10 +37,6 @@ namespace {
 
 bool is_basis(const snapspace_basis* basis) {
   return basis && basis->vertices >= 0 && (basis->vertices == 0 || (basis->tau && basis->modes));
-}
-
-bool is_cubature(const snapspace_cubature* cubature) {
-  return cubature && cubature->tets >= 1 && cubature->rows && cubature->weights;
 }
 
 bool are_stars(const snapspace_stars* stars) {
@@ -157,7 +156,8 @@ snapspace_session* snapspace_create_posing_cubature(int dimension, int handles,
   TetMaterial material;
   const int code = read_material(cubature->material, cubature->tets, material);
   if (code != SNAPSPACE_OK) return fail(error, code);
-  Cubature elastic(dimension, cubature->tets, cubature->rows, cubature->weights, material);
+  Cubature elastic(dimension, cubature->tets, cubature->rows, cubature->weights, material,
+                   clusters_of(*cubature));
   return begin(std::make_unique<CubatureSolver>(std::move(elastic), handles, K, L, S), *basis,
                error);
 }
@@ -181,7 +181,7 @@ snapspace_session* snapspace_create_blending_cubature(int dimension, int poses,
   if (code != SNAPSPACE_OK) return fail(error, code);
   if (snapspace::is_of_stars(material.kind)) return fail(error, SNAPSPACE_BAD_ARGUMENT);
   BlendedCubature elastic(dimension, cubature->tets, cubature->rows, cubature->weights, material,
-                          {poses, corners, tau});
+                          {poses, corners, tau}, clusters_of(*cubature));
   return begin(std::make_unique<BlendingCubatureSolver>(std::move(elastic)), *basis, error);
 }
 

@@ -89,14 +89,25 @@ const char* snapspace_modulus_name(const char* kind, int modulus);
 int snapspace_value_scale(const snapspace_material* material, int tets, const double* volumes,
                           double* value_scale);
 
+/* Clusters of a cubature's tets, one after the other, each with its own few coordinates: modes
+ * times the coordinates of the session. An evaluation reads less memory with them. */
+typedef struct snapspace_clusters {
+  int count;          /* 0: there are none, and the pointers may be null */
+  const int* sizes;   /* count x 2: numbers of tets, multiples of 8 except the last, and of local
+                         coordinates (rank) */
+  const float* modes; /* one cluster after the other, rank x dimension */
+} snapspace_clusters;
+
 /* The elastic energy as a weighted sum over few tets (cubature). rows (tets x 9 x dimension) map
- * coordinates to displacement gradients; entry 3 a + b of the second index is d u_a / d x_b.
- * weights (tets) are the volumes that the tets represent. */
+ * coordinates to displacement gradients; entry 3 a + b of the second index is d u_a / d x_b. With
+ * clusters they map local coordinates, one cluster after the other, tets x 9 x rank. weights (tets)
+ * are the volumes that the tets represent. */
 typedef struct snapspace_cubature {
   int tets;
   const float* rows;
   const double* weights;
   snapspace_material material;
+  snapspace_clusters clusters;
 } snapspace_cubature;
 
 /* Computes the rows of a cubature of tets. points (tets x 4 x 3) are the corners of its tets at

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "online/local_modes.h"
 #include "simd/lanes.h"
 #include "simd/number_pairs.h"
 
@@ -13,10 +14,22 @@ namespace snapspace::online {
 /// one.
 constexpr std::size_t kMinSharedSize = std::size_t{1} << 16;
 
+/// Clusters of tets, each with its own few coordinates y = modes q, which its displacement
+/// gradients are linear in. Tets of a cluster follow each other.
+struct RowClusters {
+  /// Numbers of tets are multiples of this, except that of the last cluster.
+  static constexpr int kTets = 8;
+
+  int count = 0;                 ///< 0 if displacement gradients are linear maps of q itself
+  const int* sizes = nullptr;    ///< count x 2: numbers of tets and of local coordinates (rank)
+  const float* modes = nullptr;  ///< one cluster after the other, rank x dimension
+};
+
 /// The linear maps G_e (9 x d) from reduced coordinates to the displacement gradients of few tets,
 /// and their transposes from stresses to reduced forces. One tet per SIMD lane, a block of kWidth
-/// tets at a time.
-/// An energy reads each G_e once from memory, which takes most of the time. So entries are rounded
+/// tets at a time. In clusters, G_e is the product of a map from few local coordinates and one that
+/// all tets of the cluster share.
+/// An energy reads each map once from memory, which takes most of the time. So entries are rounded
 /// to 2^-21, two in a word (simd/number_pairs.h): a tiny change of the modes. All arithmetic is in
 /// double precision, so that value and gradient match to full precision; in single precision line
 /// searches get stuck in noise. Allocates no memory after construction.
@@ -25,11 +38,12 @@ class TetRows {
   static constexpr int kWidth = kWideLanes;
   using Tets = Lanes<kWidth>;
 
-  /// @param rows  tets x 9 x dimension; entry 3 a + b of the second index is d u_a / d x_b
-  TetRows(int dimension, int tets, const float* rows);
+  /// @param rows  tets x 9 x dimension; entry 3 a + b of the second index is d u_a / d x_b. With
+  ///              clusters one after the other, tets x 9 x rank
+  TetRows(int dimension, int tets, const float* rows, const RowClusters& clusters = {});
 
   /// How many words an evaluation reads.
-  [[nodiscard]] std::size_t size() const { return active_.size() * kWidth * 9 * pairs_; }
+  [[nodiscard]] std::size_t size() const;
   [[nodiscard]] int dimension() const { return dimension_; }
   [[nodiscard]] int capacity() const { return capacity_; }
   [[nodiscard]] int tets() const { return tets_; }
@@ -50,33 +64,134 @@ class TetRows {
 
   /// Sets q (d), and resets all forces to zero.
   void begin(const double* q);
-  /// Displacement gradients of a block's tets at q.
-  void gradients(int block, Tets G[3][3]) const;
-  /// The blocks of a half, 0 or 1, of the evaluation.
-  [[nodiscard]] std::span<const int> half(int half) const {
-    const std::size_t middle = active_.size() / 2;
-    return half == 0 ? std::span(active_).first(middle) : std::span(active_).subspan(middle);
+
+  /// The sum of the energies of half 0 or 1 of the active blocks; adds their forces. The halves may
+  /// be summed on two threads.
+  /// @param energy  energy(block, G, P) returns the energies of a block's tets, and sets their
+  ///                stresses P by their displacement gradients G
+  template <class Energy>
+  double sum(int half, const Energy& energy) {
+    double value = 0.0;
+    Half& work = halves_[half];
+    visit(
+        work, blocks_of(half),
+        [&](const Cluster& cluster, int block) {
+          Tets G[3][3], P[3][3];
+          gradients(cluster, work, block, G);
+          Tets energies = energy(block, G, P);
+          for (int lane = 0; lane < kWidth; ++lane) value += energies[lane];
+          add_stresses(cluster, work, block, P);
+        },
+        [&](const Cluster& cluster) { add_forces(cluster, work); });
+    return value;
   }
-  /// Adds the forces of a block's stresses to those of its half.
-  void add_stresses(int half, int block, const Tets P[3][3]);
   /// Writes the sum of all forces (d), of both halves.
   void end(double* gradient) const;
 
-  /// Adds a block's part G_e^T curvature G_e to the lower triangle of `hessian` (d x d).
-  void add_curvatures(int block, const Tets curvature[9][9], double* hessian) const;
+  /// Adds the Hessian of half 0 or 1 to the lower triangle of `hessian` (d x d).
+  /// @param curvatures  curvatures(block, G, C) sets the Hessians C of a block's tets by their
+  ///                    displacement gradients G
+  template <class Curvatures>
+  void add_hessian(int half, const Curvatures& curvatures, double* hessian) {
+    Half& work = halves_[half];
+    visit(
+        work, blocks_of(half),
+        [&](const Cluster& cluster, int block) {
+          Tets G[3][3], C[9][9];
+          gradients(cluster, work, block, G);
+          curvatures(block, G, C);
+          add_curvatures(cluster, block, C, local_hessian(cluster, work, hessian));
+        },
+        [&](const Cluster& cluster) { add_local_hessian(cluster, work, hessian); });
+  }
+
+  /// Calls act(block, G) with the displacement gradients of every block, active or not.
+  template <class Act>
+  void for_each_block(const Act& act) {
+    Half& work = halves_[0];
+    visit(
+        work, all_,
+        [&](const Cluster& cluster, int block) {
+          Tets G[3][3];
+          gradients(cluster, work, block, G);
+          act(block, G);
+        },
+        [](const Cluster&) {});
+  }
 
  private:
-  [[nodiscard]] const Tets* words(int block) const {
-    return words_.data() + static_cast<std::size_t>(block) * 9 * ((capacity_ + 1) / 2);
+  /// All tets are in one cluster without modes if their maps are of q itself.
+  struct Cluster {
+    int first, end;     ///< its first block, and the one after its last
+    int rank, pairs;    ///< of local coordinates
+    int stride;         ///< pairs of a block's words
+    std::size_t words;  ///< where its words begin
+    LocalModes modes;   ///< empty if local coordinates are q itself
+
+    [[nodiscard]] bool is_local() const { return modes.twins() > 0; }
+  };
+  /// What half of an evaluation works on.
+  struct Half {
+    std::vector<double> local;     ///< local coordinates of the present cluster, or q
+    std::vector<Tets> local_sums;  ///< of its forces
+    std::vector<Tets> sums;        ///< of the forces of q, lane by lane
+    std::vector<LocalModes::Pack> packs;
+    std::vector<double> hessian, modes, product;  ///< of the present cluster
+  };
+
+  [[nodiscard]] std::span<const int> blocks_of(int half) const {
+    const std::size_t middle = active_.size() / 2;
+    return half == 0 ? std::span(active_).first(middle) : std::span(active_).subspan(middle);
   }
+
+  /// Calls act(cluster, block) for ascending blocks, with the cluster's local coordinates at q, and
+  /// leave(cluster) after the last one of each cluster.
+  template <class Act, class Leave>
+  void visit(Half& work, std::span<const int> blocks, const Act& act, const Leave& leave) {
+    const Cluster* cluster = nullptr;
+    for (const int block : blocks) {
+      if (!cluster || block >= cluster->end) {
+        if (cluster) leave(*cluster);
+        cluster = cluster ? cluster : clusters_.data();
+        while (block >= cluster->end) ++cluster;
+        enter(*cluster, work);
+      }
+      act(*cluster, block);
+    }
+    if (cluster) leave(*cluster);
+  }
+
+  // Functions that several sums share are not inlined: a page has little room.
+  [[gnu::noinline]] void allocate(Half& half) const;
+  [[gnu::noinline]] void enter(const Cluster& cluster, Half& work) const;
+  [[gnu::noinline]] void gradients(const Cluster& cluster, const Half& work, int block,
+                                   Tets G[3][3]) const;
+  [[gnu::noinline]] void add_stresses(const Cluster& cluster, Half& work, int block,
+                                      const Tets P[3][3]) const;
+  [[gnu::noinline]] void add_forces(const Cluster& cluster, Half& work) const;
+  /// The matrix that a cluster's curvatures are added to.
+  static double* local_hessian(const Cluster& cluster, Half& work, double* hessian) {
+    return cluster.is_local() ? work.hessian.data() : hessian;
+  }
+  [[gnu::noinline]] void add_curvatures(const Cluster& cluster, int block,
+                                        const Tets curvature[9][9], double* hessian) const;
+  [[gnu::noinline]] void add_local_hessian(const Cluster& cluster, Half& work,
+                                           double* hessian) const;
+
+  [[nodiscard]] const Tets* words(const Cluster& cluster, int block) const {
+    return words_.data() + cluster.words +
+           static_cast<std::size_t>(block - cluster.first) * 9 * cluster.stride;
+  }
+
   int capacity_, dimension_;
-  int pairs_;  // of modes, for the current dimension
+  int pairs_;  // of coordinates, for the current dimension
   int tets_;
-  std::vector<int> active_;  // blocks, ascending
-  std::vector<Tets>
-      words_;  // block, pair of modes, entry of G; an odd last mode is paired with zeros
+  std::vector<int> all_, active_;  // blocks, ascending
+  std::vector<Cluster> clusters_;
+  std::vector<Tets> words_;  // block, pair of local coordinates, entry of G; an odd last one is
+                             // paired with zeros
   std::vector<double> coordinates_;  // q, and a zero if d is odd
-  std::vector<Tets> sums_;           // of forces, half by half
+  Half halves_[2];
 };
 
 inline double lane_sum(const TetRows::Tets& pack) {

@@ -8,6 +8,7 @@ from .cubature import Cubature
 from .elements import element_count, has_hinges, has_stars
 from .fit_tets import FEWEST_SNAPSHOTS
 from .held_out_errors import CubatureErrors
+from .local_rows import LocalRows
 from .train import (
     FEWEST_BLENDS,
     default_blended_tets,
@@ -24,6 +25,7 @@ __all__ = [
     "BlendedSum",
     "Cubature",
     "CubatureErrors",
+    "LocalRows",
     "WeightedCubature",
     "blended_sum",
     "default_blended_tets",

@@ -15,6 +15,15 @@ from ..subspace import AffineSubspace
 from .blended_elements import BlendedElements
 from .chosen_tets import check_chosen, check_in_mesh
 from .displacement_gradients import displacement_gradients
+from .local_rows import (
+    CoreRows,
+    LocalRows,
+    core_rows,
+    dimension_of,
+    leading_rows,
+    products,
+    stored,
+)
 from .summed_curvatures import summed_curvatures
 
 FloatArray = NDArray[np.float64]
@@ -29,10 +38,10 @@ class BlendedCubature(BlendedElements):
     Parameters
     ----------
     tets : (r,) int32
-        Which tets of the mesh, or which elements of a shell, ascending.
+        Which tets of the mesh, or which elements of a shell; ascending without local coordinates.
     weights : (r,) float64
         The volume that each tet stands for in the first pose, or the measure of an element, > 0.
-    rows : (r, 9, d) float32
+    rows : (r, 9, d) float32, or LocalRows
         Displacement gradients of the modes against the first pose, see `displacement_gradients`.
     material : Material or ShellMaterial
         The density of these tets, with constant moduli or r values of each; of a shell that of the
@@ -51,7 +60,7 @@ class BlendedCubature(BlendedElements):
         self,
         tets: NDArray[np.int32],
         weights: FloatArray,
-        rows: NDArray[np.float32],
+        rows: NDArray[np.float32] | LocalRows,
         material: Material | ShellMaterial,
         corners: FloatArray,
     ) -> None:
@@ -63,7 +72,7 @@ class BlendedCubature(BlendedElements):
             )
         self.tets = tets
         self.weights = weights
-        self.rows = np.ascontiguousarray(rows, np.float32)
+        self.stored_rows = stored(rows)
         self.material = material
         self.corners = np.ascontiguousarray(corners, np.float64)
         self._core = core.BlendedCubature(*self.core_arguments)
@@ -75,10 +84,13 @@ class BlendedCubature(BlendedElements):
         subspace: AffineSubspace,
         tets: NDArray[np.int32],
         weights: FloatArray,
+        *,
+        rows: LocalRows | None = None,
     ) -> BlendedCubature:
         """Makes the cubature of some tets for a subspace attached to the mean shape.
 
         With all tets, weighted by their volumes in the first pose, it is the exact energy.
+        The rows are computed if they are not given.
 
         Raises
         ------
@@ -86,25 +98,30 @@ class BlendedCubature(BlendedElements):
             As for the constructor, or for a tet that the mesh does not have.
         """
         check_in_mesh(tets, len(problem.mesh.elements), who="BlendedCubature")
-        rows = displacement_gradients(problem.mesh, subspace.basis, tets)
+        given = displacement_gradients(problem.mesh, subspace.basis, tets) if rows is None else rows
         shapes = np.concatenate([problem.poses.shapes, subspace.tau.reshape(1, -1, 3)])
         corners = shapes[:, problem.mesh.elements[tets]]
-        return cls(tets, weights, rows, problem.element_material.of_tets(tets), corners)
+        return cls(tets, weights, given, problem.element_material.of_tets(tets), corners)
 
     def __reduce__(self) -> tuple[type[BlendedCubature], tuple[Any, ...]]:
         """Pickles the arguments; unpickling makes the compiled part again."""
-        return type(self), (self.tets, self.weights, self.rows, self.material, self.corners)
+        return type(self), (self.tets, self.weights, self.stored_rows, self.material, self.corners)
 
     @property
-    def core_arguments(self) -> tuple[NDArray[np.float32], FloatArray, core.Material, FloatArray]:
+    def core_arguments(self) -> tuple[CoreRows, FloatArray, core.Material, FloatArray]:
         """Arguments of the compiled part: rows, weights, material, corners (poses + 1, r, 12)."""
         flat = self.corners.reshape(*self.corners.shape[:2], 12)
-        return self.rows, self.weights, self.material.core, flat
+        return core_rows(self.stored_rows), self.weights, self.material.core, flat
+
+    @property
+    def rows(self) -> NDArray[np.float32]:
+        """Displacement gradients of the modes against the first pose, (r, 9, d)."""
+        return products(self.stored_rows)
 
     @property
     def dimension(self) -> int:
         """d."""
-        return int(self.rows.shape[2])
+        return dimension_of(self.stored_rows)
 
     @property
     def poses(self) -> int:
@@ -113,9 +130,14 @@ class BlendedCubature(BlendedElements):
 
     def rough_hessian(self, q: ArrayLike, weights: FloatArray) -> FloatArray:
         """The Hessian summed in single precision, which is faster: see `summed_curvatures`."""
-        return summed_curvatures(self.rows, self._curvatures(q, weights))
+        return summed_curvatures(self.rows, self.curvatures(q, weights))
 
     def leading(self, dimension: int) -> BlendedCubature:
         """The cubature of the same tets for the first `dimension` coordinates."""
-        rows = self.rows[:, :, :dimension]
+        rows = leading_rows(self.stored_rows, dimension)
         return BlendedCubature(self.tets, self.weights, rows, self.material, self.corners)
+
+    def in_clusters(self, order: NDArray[np.intp], rows: LocalRows) -> BlendedCubature:
+        """The same tets in another order (r,), with these rows."""
+        material, corners = self.material.of_tets(order), self.corners[:, order]
+        return BlendedCubature(self.tets[order], self.weights[order], rows, material, corners)

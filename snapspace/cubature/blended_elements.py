@@ -34,7 +34,13 @@ class BlendedElements(ABC):
         hessian: FloatArray = self._core.derivatives(np.asarray(q, np.float64))[2]
         return hessian
 
-    def _curvatures(self, q: ArrayLike, weights: FloatArray) -> NDArray[np.float32]:
+    def stresses(self, q: ArrayLike, weights: FloatArray) -> NDArray[np.float32]:
+        """Derivatives of the elements' energies by their nine numbers."""
+        self._core.set_weights(weights)
+        stresses: NDArray[np.float32] = self._core.stresses(np.asarray(q, np.float64))
+        return stresses
+
+    def curvatures(self, q: ArrayLike, weights: FloatArray) -> NDArray[np.float32]:
         """Hessians of the elements by their nine numbers."""
         self._core.set_weights(weights)
         curvatures: NDArray[np.float32] = self._core.curvatures(np.asarray(q, np.float64))

@@ -146,7 +146,7 @@ class BlendedStars(BlendedElements):
 
     def rough_hessian(self, q: ArrayLike, weights: FloatArray) -> FloatArray:
         """The Hessian summed in single precision, which is faster: see `summed_curvatures`."""
-        curvatures = self._curvatures(q, weights)
+        curvatures = self.curvatures(q, weights)
         d = self.dimension
         form: FloatArray = np.einsum("k,kij->ij", weights, self.forms[:, :d, :d])
         return summed_curvatures(self.core_arguments[0], curvatures) + 2.0 * form

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from ..energy import ShellMaterial
 from ..material import Material
+from .local_rows import LocalRows
 
 FloatArray = NDArray[np.float64]
 
@@ -14,7 +15,7 @@ FloatArray = NDArray[np.float64]
 def check_chosen(
     tets: NDArray[np.int32],
     weights: FloatArray,
-    rows: NDArray[np.float32],
+    rows: NDArray[np.float32] | LocalRows,
     material: Material | ShellMaterial | None,
     *,
     who: str,
@@ -24,10 +25,11 @@ def check_chosen(
     A material of None is not checked.
     """
     r = len(tets)
-    if r == 0 or weights.shape != (r,) or rows.ndim != 3 or rows.shape[:2] != (r, 9):
+    shape = (rows.tets, 9, rows.dimension) if isinstance(rows, LocalRows) else rows.shape
+    if r == 0 or weights.shape != (r,) or len(shape) != 3 or shape[:2] != (r, 9):
         raise ValueError(
             f"{who}: {r} tets need weights ({r},) and rows ({r}, 9, d), got arrays of "
-            f"shapes {weights.shape} and {rows.shape}"
+            f"shapes {weights.shape} and {shape}"
         )
     bad = np.flatnonzero(~(np.isfinite(weights) & (weights > 0)))
     if bad.size:

@@ -14,6 +14,7 @@ from ..problem import PosingProblem
 from ..subspace import AffineSubspace
 from .chosen_tets import check_chosen, check_in_mesh
 from .elements import posed_elements_of
+from .local_rows import CoreRows, LocalRows, core_rows, dimension_of, leading_rows, products, stored
 from .summed_curvatures import summed_curvatures
 
 FloatArray = NDArray[np.float64]
@@ -23,17 +24,18 @@ class Cubature:
     """E(tau + U q) as a sum of the energies of a few tets with positive weights.
 
     After An, Kim, James 2008, "Optimizing cubature for efficient integration of subspace
-    deformations". An evaluation costs 18 r d multiply-adds for r tets, whatever the material. Rows
-    are rounded to 5e-7 of their entries; value, gradient and Hessian are consistent to full
-    precision. The tets of a shell are its elements, triangles and hinges.
+    deformations". An evaluation costs 18 r d multiply-adds for r tets, whatever the material, and
+    fewer with local coordinates. Rows are rounded to 5e-7 of their entries; value, gradient and
+    Hessian are consistent to full precision. The tets of a shell are its elements, triangles and
+    hinges.
 
     Parameters
     ----------
     tets : (r,) int32
-        Which tets of the mesh, or which elements of a shell, ascending.
+        Which tets of the mesh, or which elements of a shell; ascending without local coordinates.
     weights : (r,) float64
         The volume that each tet stands for, or the measure of an element, > 0.
-    rows : (r, 9, d) float32
+    rows : (r, 9, d) float32, or LocalRows
         Displacement gradients of the modes in these tets, see `displacement_gradients`.
     material : Material or ShellMaterial
         The density of these tets, with constant moduli or r values of each.
@@ -51,17 +53,17 @@ class Cubature:
         self,
         tets: NDArray[np.int32],
         weights: FloatArray,
-        rows: NDArray[np.float32],
+        rows: NDArray[np.float32] | LocalRows,
         material: Material | ShellMaterial,
         remainder: FloatArray | None = None,
     ) -> None:
         check_chosen(tets, weights, rows, material, who="Cubature")
         self.tets = tets
         self.weights = weights
-        self.rows = np.ascontiguousarray(rows, np.float32)
+        self.stored_rows = stored(rows)
         self.material = material
         self.remainder = remainder
-        self._core = core.Cubature(self.rows, self.weights, material.core)
+        self._core = core.Cubature(self.core_rows, self.weights, material.core)
 
     @classmethod
     def of_tets(
@@ -71,12 +73,13 @@ class Cubature:
         tets: NDArray[np.int32],
         weights: FloatArray,
         *,
+        rows: LocalRows | None = None,
         remainder: FloatArray | None = None,
     ) -> Cubature:
         """Makes the cubature of some tets for a subspace attached to the rest shape.
 
         With all tets, weighted by their volumes, it is the exact energy. What they leave of the
-        energy, see `Elements`, is computed if it is not given.
+        energy, see `Elements`, and the rows are computed if they are not given.
 
         Raises
         ------
@@ -85,19 +88,30 @@ class Cubature:
         """
         elements = posed_elements_of(problem)
         check_in_mesh(tets, len(elements.measures), who="Cubature")
-        rows = elements.gradients(subspace.basis, tets)
         if remainder is None:
             remainder = elements.remainder(subspace.basis)
-        return cls(tets, weights, rows, elements.material.of_tets(tets), remainder)
+        given = elements.gradients(subspace.basis, tets) if rows is None else rows
+        return cls(tets, weights, given, elements.material.of_tets(tets), remainder)
 
     def __reduce__(self) -> tuple[type[Cubature], tuple[Any, ...]]:
         """Pickles the arguments; unpickling makes the compiled part again."""
-        return type(self), (self.tets, self.weights, self.rows, self.material, self.remainder)
+        arguments = self.tets, self.weights, self.stored_rows, self.material, self.remainder
+        return type(self), arguments
+
+    @property
+    def rows(self) -> NDArray[np.float32]:
+        """Displacement gradients of the modes, (r, 9, d)."""
+        return products(self.stored_rows)
+
+    @property
+    def core_rows(self) -> CoreRows:
+        """The rows as compiled energies take them."""
+        return core_rows(self.stored_rows)
 
     @property
     def dimension(self) -> int:
         """d."""
-        return int(self.rows.shape[2])
+        return dimension_of(self.stored_rows)
 
     def value(self, q: ArrayLike) -> float:
         """Energy at q (d,)."""
@@ -116,22 +130,36 @@ class Cubature:
         """Hessian at q, (d, d)."""
         return self._with_remainder(self._core.derivatives(np.asarray(q, np.float64))[2])
 
+    def stresses(self, q: ArrayLike) -> NDArray[np.float32]:
+        """First Piola-Kirchhoff stresses of the tets times their weights, (r, 9)."""
+        stresses: NDArray[np.float32] = self._core.stresses(np.asarray(q, np.float64))
+        return stresses
+
+    def curvatures(self, q: ArrayLike) -> NDArray[np.float32]:
+        """Hessians of the tets by their displacement gradients, times weights, (r, 9, 9)."""
+        curvatures: NDArray[np.float32] = self._core.curvatures(np.asarray(q, np.float64))
+        return curvatures
+
     def rough_hessian(self, q: ArrayLike) -> FloatArray:
         """The Hessian summed in single precision, which is faster: see `summed_curvatures`."""
-        curvatures = self._core.curvatures(np.asarray(q, np.float64))
-        return self._with_remainder(summed_curvatures(self.rows, curvatures))
+        return self._with_remainder(summed_curvatures(self.rows, self.curvatures(q)))
 
     def leading(self, dimension: int) -> Cubature:
         """The cubature of the same tets for the first `dimension` coordinates."""
         remainder = self.remainder
         if remainder is not None:
             remainder = np.ascontiguousarray(remainder[:dimension, :dimension])
-        rows = self.rows[:, :, :dimension]
+        rows = leading_rows(self.stored_rows, dimension)
         return Cubature(self.tets, self.weights, rows, self.material, remainder)
+
+    def in_clusters(self, order: NDArray[np.intp], rows: LocalRows) -> Cubature:
+        """The same tets in another order (r,), with these rows."""
+        material = self.material.of_tets(order)
+        return Cubature(self.tets[order], self.weights[order], rows, material, self.remainder)
 
     def without_remainder(self) -> Cubature:
         """The sum over tets alone."""
-        return Cubature(self.tets, self.weights, self.rows, self.material)
+        return Cubature(self.tets, self.weights, self.stored_rows, self.material)
 
     def _with_remainder(self, hessian: FloatArray) -> FloatArray:
         return hessian if self.remainder is None else hessian + 2.0 * self.remainder

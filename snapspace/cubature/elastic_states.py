@@ -91,6 +91,14 @@ class ElasticStates(Protocol):
         """
         ...
 
+    def curvatures(self, energy: Any) -> NDArray[np.float32]:
+        """Hessians (r, 9, 9) of the tets of a `sum_over` at tau, times volume."""
+        ...
+
+    def sum_stresses(self, energy: Any) -> FloatArray:
+        """Stresses (s, r, 9) of the tets of a `sum_over` at all states, times volume."""
+        ...
+
 
 @dataclass(frozen=True)
 class PosingStates:
@@ -149,6 +157,14 @@ class PosingStates:
             return estimate.rough_hessian(q) + self.handle_hessian
 
         return hessian
+
+    def curvatures(self, energy: Cubature) -> NDArray[np.float32]:
+        """See `ElasticStates`."""
+        return energy.curvatures(np.zeros(energy.dimension))
+
+    def sum_stresses(self, energy: Cubature) -> FloatArray:
+        """See `ElasticStates`."""
+        return np.array([energy.stresses(q) for q in self.coordinates], np.float64)
 
 
 @dataclass(frozen=True)
@@ -219,3 +235,12 @@ class BlendingStates:
             return estimate.rough_hessian(self.coordinates[state], self.weights[state])
 
         return hessian
+
+    def curvatures(self, energy: BlendedSum) -> NDArray[np.float32]:
+        """See `ElasticStates`."""
+        return energy.curvatures(np.zeros(energy.dimension), self.problem.domain.center)
+
+    def sum_stresses(self, energy: BlendedSum) -> FloatArray:
+        """See `ElasticStates`."""
+        every = zip(self.coordinates, self.weights, strict=True)
+        return np.array([energy.stresses(q, w) for q, w in every], np.float64)

@@ -63,12 +63,13 @@ class Budget:
 class Fit(Generic[States]):
     """Chosen tets with the volumes that they stand for, and the held-out states.
 
-    unseen : the held-out states
+    known, unseen : the states that are not held out, and those that are
     exact, compliances : their exact forces and energies, and their compliances
     """
 
     tets: NDArray[np.int32]
     volumes: FloatArray
+    known: States
     unseen: States
     exact: StateForces
     compliances: FloatArray
@@ -116,7 +117,8 @@ def fit_tets(
         )
     period = min(FEWEST_SNAPSHOTS, len(states))
     held = np.arange(len(states)) % period == period // 2
-    trained = states.chosen(_spread(np.flatnonzero(~held), budget.most_trained))
+    known = states.chosen(np.flatnonzero(~held))
+    trained = known.chosen(_spread(np.arange(len(known)), budget.most_trained))
     unseen = states.chosen(_spread(np.flatnonzero(held), HELD_OUT))
     ordered = tets_by_force(trained.with_forces(), threads=threads)
     candidates = sampled_tets(ordered, budget.candidate_count(count), seed=seed).tets
@@ -129,6 +131,7 @@ def fit_tets(
     return Fit(
         tets=fine.tets,
         volumes=fine.volumes,
+        known=known,
         unseen=judging,
         exact=state_forces(judging, np.zeros(0, np.int32), threads=threads),
         compliances=repeated(judging_compliances(unseen, estimate, threads=threads), len(judging)),

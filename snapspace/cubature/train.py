@@ -19,6 +19,7 @@ from .elastic_states import BlendingStates, PosingStates
 from .elements import element_count, has_hinges, has_stars
 from .fit_tets import FEWEST_SNAPSHOTS, Budget, fit_tets
 from .held_out_errors import held_out_errors
+from .local_coordinates import with_local_coordinates
 from .star_poses import StarPoses
 from .star_states import BlendedStarStates
 
@@ -140,7 +141,8 @@ def train_cubature(
     states = PosingStates(problem, subspace, coordinates[_moved(coordinates)], handle_hessian)
     budget = Budget(tets, usual, FEWEST_SNAPSHOTS, TRAINED, CANDIDATES, MANY_CANDIDATES)
     fit = fit_tets(states, budget, seed=seed, threads=threads)
-    cubature = Cubature.of_tets(problem, subspace, fit.tets, fit.volumes)
+    dense = Cubature.of_tets(problem, subspace, fit.tets, fit.volumes)
+    cubature = with_local_coordinates(dense, fit.known, threads=threads)
     alone = cubature.without_remainder()
     errors = held_out_errors(
         fit.unseen.coordinates,
@@ -193,6 +195,7 @@ def train_blended_cubature(
         no_more, taken = len(fit.tets) <= taken, len(fit.tets)
         if tets is not None or no_more or _is_stable(cubature, problem.domain.center):
             break
+    cubature = with_local_coordinates(cubature, fit.known, threads=threads)
     unseen = fit.unseen
     alone = cubature.without_form() if isinstance(cubature, BlendedStars) else cubature
     errors = held_out_errors(

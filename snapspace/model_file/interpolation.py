@@ -18,7 +18,7 @@ from ..reduction import (
     not_stored,
 )
 from ..subspace import AffineSubspace
-from . import basis, cells, shown_surface, snapshot_energies, star_forms
+from . import basis, cells, local_rows, shown_surface, snapshot_energies, star_forms
 from . import material as material_file
 from .container import Arrays, Types, check_shapes
 
@@ -126,7 +126,7 @@ def _blend_arrays(
         raise not_stored("save_model")
     if isinstance(blends, BlendedSum):
         chosen: Arrays = {"cubature_tets": blends.tets, "cubature_weights": blends.weights}
-        return chosen | star_forms.form_arrays(blends, problem)
+        return chosen | local_rows.local_arrays(blends) | star_forms.form_arrays(blends, problem)
     return {"quartics": blends.coefficients}
 
 
@@ -146,4 +146,5 @@ def _blends(
         check_shapes(arrays, shapes)
         star_forms.check_stars(arrays, problem.material, stars[0], tets)
         return BlendedStars.of_tets(problem, subspace, tets, weights, forms=forms)
-    return BlendedCubature.of_tets(problem, subspace, tets, weights)
+    rows = local_rows.local_rows(arrays, len(tets), d)
+    return BlendedCubature.of_tets(problem, subspace, tets, weights, rows=rows)

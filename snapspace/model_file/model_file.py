@@ -12,6 +12,7 @@ from ..reduction import InterpolationModel, PosingModel, ReducedModel
 from . import (
     error_estimator,
     interpolation,
+    local_rows,
     material,
     posing,
     shown_surface,
@@ -119,7 +120,14 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
             f"{path}: the kind is {kind[:40]!r}, but this snapspace knows {', '.join(_DTYPES)}; "
             "install the snapspace that wrote it"
         )
-    for part in (error_estimator, shown_surface, material, snapshot_energies, star_forms):
+    for part in (
+        error_estimator,
+        shown_surface,
+        material,
+        snapshot_energies,
+        star_forms,
+        local_rows,
+    ):
         check_dtypes(path, arrays, part.dtypes(arrays))
     check_dtypes(path, arrays, _DTYPES[kind])
     if header.get("checksum") != checksum(arrays, header) or not timings.is_unaltered(header):

@@ -18,7 +18,7 @@ from ..reduction import (
     not_stored,
 )
 from ..subspace import AffineSubspace
-from . import basis, cells, shown_surface, snapshot_energies, star_forms
+from . import basis, cells, local_rows, shown_surface, snapshot_energies, star_forms
 from . import material as material_file
 from .container import Arrays, Types, check_shapes
 
@@ -33,7 +33,8 @@ _COMMON: dict[str, Types] = {
     "training_parameters": np.float64,
     "training_coordinates": np.float64,
 }
-#: Few tets in place of the quartic; their rows are computed from the basis on loading.
+#: Few tets in place of the quartic; their rows are computed from the basis on loading, unless they
+#: have local coordinates.
 _CUBATURE: dict[str, Types] = {"cubature_tets": np.int32, "cubature_weights": np.float64}
 DTYPES = {**_COMMON, **cells.TETS, "quartic": np.float64}
 CUBATURE_DTYPES = {**_COMMON, **cells.TETS, **_CUBATURE}
@@ -129,7 +130,11 @@ def _elastic_arrays(elastic: Quartic | Cubature | FullEnergy, problem: PosingPro
         raise not_stored("save_model")
     if isinstance(elastic, Cubature):
         chosen: Arrays = {"cubature_tets": elastic.tets, "cubature_weights": elastic.weights}
-        return chosen | star_forms.remainder_arrays(elastic, problem)
+        return (
+            chosen
+            | local_rows.local_arrays(elastic)
+            | star_forms.remainder_arrays(elastic, problem)
+        )
     return {"quartic": elastic.coefficients}
 
 
@@ -146,7 +151,8 @@ def _elastic(
         star_forms.check_stars(arrays, problem.material, problem.energy.stars, tets)
         remainder = arrays[star_forms.REMAINDER]
         check_shapes(arrays, {star_forms.REMAINDER: (subspace.dimension, subspace.dimension)})
-    return Cubature.of_tets(problem, subspace, tets, weights, remainder=remainder)
+    rows = local_rows.local_rows(arrays, len(tets), subspace.dimension)
+    return Cubature.of_tets(problem, subspace, tets, weights, rows=rows, remainder=remainder)
 
 
 def _problem(arrays: Arrays, content: dict[str, Any]) -> PosingProblem:

@@ -13,12 +13,14 @@ from ..mesh import EmbeddedSurface
 from ..model_file.appearance import appearance_arrays
 from ..model_file.container import Arrays
 from ..reduction import (
+    BlendedCubature,
     BlendedStars,
     BlendedSum,
     Cubature,
     FullBlends,
     FullEnergy,
     InterpolationModel,
+    LocalRows,
     PoseQuartics,
     PosingModel,
     Quartic,
@@ -188,11 +190,23 @@ def _elastic_arrays(elastic: Quartic | Cubature | FullEnergy) -> Arrays:
         raise not_stored("packed")
     if isinstance(elastic, Cubature):
         return {
-            "cubature_rows": elastic.rows,
+            **_row_arrays(elastic),
             "cubature_weights": elastic.weights,
             "cubature_moduli": elastic.material.moduli,
         }
     return {"quartic": elastic.coefficients.astype(np.float32)}
+
+
+def _row_arrays(energy: Cubature | BlendedCubature) -> Arrays:
+    """Rows of all coordinates, or what makes them, cluster by cluster."""
+    rows = energy.stored_rows
+    if not isinstance(rows, LocalRows):
+        return {"cubature_rows": rows}
+    return {
+        "cubature_clusters": rows.sizes,
+        "cubature_local_rows": rows.rows,
+        "cubature_local_modes": rows.modes,
+    }
 
 
 def _interpolation_arrays(model: InterpolationModel) -> Arrays:
@@ -222,7 +236,7 @@ def _blend_arrays(blends: PoseQuartics | BlendedSum | FullBlends) -> Arrays:
         }
     if isinstance(blends, BlendedSum):
         return {
-            "cubature_rows": blends.rows,
+            **_row_arrays(blends),
             "cubature_weights": blends.weights,
             "cubature_moduli": blends.material.moduli,
             "cubature_corners": blends.corners.reshape(*blends.corners.shape[:2], 12),

@@ -23,6 +23,6 @@ def posing_loop(model: PosingModel, *, single: bool) -> Any:
         return core.PosingLoop(elastic.coefficients, handles.K, handles.L, handles.S, single=single)
     if single:
         raise ValueError(SINGLE_CUBATURE)
-    energy = elastic.rows, elastic.weights, elastic.material.core
+    energy = elastic.core_rows, elastic.weights, elastic.material.core
     quadratic = handles.K if elastic.remainder is None else handles.K + elastic.remainder
     return core.CubatureLoop(*energy, quadratic, handles.L, handles.S)

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 import snapspace as ss
 from snapspace import InterpolationModel, PosingModel, ReducedModel
 from snapspace.certificate.probe_pins import ProbePins
-from snapspace.cubature import BlendedStars
+from snapspace.cubature import BlendedStars, LocalRows
 from snapspace.energy import ShellMaterial
 
-from .library import Basis, Cubature, Material, Options, Report, Stars, address
+from .library import Basis, Clusters, Cubature, Material, Options, Report, Stars, address
 
 FloatArray = NDArray[np.float64]
 
@@ -24,8 +24,13 @@ def material(given: ss.Material | ShellMaterial) -> Material:
 
 
 def cubature(elastic: ss.Cubature) -> Cubature:
-    arrays = address(elastic.rows), address(elastic.weights)
-    return Cubature(len(elastic.tets), *arrays, material(elastic.material))
+    """The struct of a cubature; it refers to the arrays."""
+    rows, clusters = elastic.stored_rows, Clusters()
+    numbers = rows.rows if isinstance(rows, LocalRows) else rows
+    if isinstance(rows, LocalRows):
+        clusters = Clusters(len(rows.sizes), address(rows.sizes), address(rows.modes))
+    arrays = address(numbers), address(elastic.weights)
+    return Cubature(len(elastic.tets), *arrays, material(elastic.material), clusters)
 
 
 def pin_arrays(pins: ProbePins) -> dict[str, NDArray[Any]]:

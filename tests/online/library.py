@@ -86,12 +86,21 @@ class Material(ctypes.Structure):
     )
 
 
+class Clusters(ctypes.Structure):
+    _fields_ = (
+        ("count", ctypes.c_int),
+        ("sizes", ctypes.c_void_p),
+        ("modes", ctypes.c_void_p),
+    )
+
+
 class Cubature(ctypes.Structure):
     _fields_ = (
         ("tets", ctypes.c_int),
         ("rows", ctypes.c_void_p),
         ("weights", ctypes.c_void_p),
         ("material", Material),
+        ("clusters", Clusters),
     )
 
 

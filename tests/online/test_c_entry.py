@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from snapspace import InterpolationModel, PosingModel
 
-from .entry import Entry
-from .library import CORE, Basis, Cubature, Material, Options, Report, address, run
+from ..clustered import clustered_model
+from .entry import Entry, cubature
+from .library import CORE, Basis, Clusters, Cubature, Material, Options, Report, address, run
 
 pytestmark = pytest.mark.skipif(
     not sys.platform.startswith("linux"), reason="compiles a shared library as on Linux"
@@ -49,11 +50,13 @@ def test_a_drag_agrees_with_the_session(posing: Entry, method: int, minimizer: s
         assert posing.read("get_q", 20) == pytest.approx(session.q, abs=1e-6)
 
 
+@pytest.mark.parametrize("clustered", [False, True], ids=["rows", "local rows"])
 def test_a_drag_with_a_cubature_agrees_with_the_session(
-    library: ctypes.CDLL, cubature_model: PosingModel
+    library: ctypes.CDLL, cubature_model: PosingModel, clustered: bool
 ) -> None:
-    entry, problem = Entry(library, cubature_model), cubature_model.problem
-    session, d = cubature_model.session(tolerance=1e-10), cubature_model.dimension
+    model = clustered_model(cubature_model, 15) if clustered else cubature_model
+    entry, problem = Entry(library, model), model.problem
+    session, d = model.session(tolerance=1e-10), model.dimension
     allocated = library.allocations()
     for dimension in (d, 8):
         assert entry.call("set_dimension", dimension) == 0
@@ -65,7 +68,7 @@ def test_a_drag_with_a_cubature_agrees_with_the_session(
             report, expected = entry.solve(method=1), session.pose(w)
             assert report.status == 0 and expected.converged
             assert report.value == pytest.approx(expected.value, rel=1e-9)
-            scale = cubature_model.coordinate_scale
+            scale = model.coordinate_scale
             assert entry.read("get_q", dimension) == pytest.approx(session.q, abs=1e-5 * scale)
     assert entry.call("set_weights", address(np.ones(3))) == WRONG_KIND
     assert library.allocations() == allocated
@@ -201,6 +204,35 @@ def test_a_damaged_cubature_is_refused(library: ctypes.CDLL) -> None:
         given = ctypes.byref(Cubature(1, address(rows), address(weights), missing))
         assert create(1, 1, given, *handles, ctypes.byref(basis), ctypes.byref(error)) is None
         assert error.value == BAD_ARGUMENT
+
+
+def test_damaged_clusters_are_refused(library: ctypes.CDLL, cubature_model: PosingModel) -> None:
+    entry = Entry(library, clustered_model(cubature_model, 15))
+    given = cubature(entry.model.elastic)
+    error, d = ctypes.c_int(0), entry.model.dimension
+    handles = [address(getattr(entry.model.handles, name)) for name in ("K", "L", "S")]
+    count = len(entry.model.problem.handles)
+    create = library.snapspace_create_posing_cubature
+    sizes = entry.model.elastic.stored_rows.sizes
+
+    def refused(clusters: Clusters) -> bool:
+        given.clusters = clusters
+        basis = ctypes.byref(entry.basis)
+        made = create(d, count, ctypes.byref(given), *handles, basis, ctypes.byref(error))
+        return made is None and error.value == BAD_ARGUMENT
+
+    good = given.clusters
+    for change in ([1, 0], [-8, 0], [8, 0], [-int(sizes[0, 0]), 0], [0, -100]):
+        bad = sizes + np.array([change] + [[0, 0]] * (len(sizes) - 1), np.int32)
+        assert refused(Clusters(len(bad), address(bad), good.modes))
+    for clusters in (
+        Clusters(len(sizes) - 1, good.sizes, good.modes),
+        Clusters(-1, good.sizes, good.modes),
+        Clusters(len(sizes), None, good.modes),
+        Clusters(len(sizes), good.sizes, None),
+    ):
+        assert refused(clusters)
+    library.snapspace_destroy(entry.session)
 
 
 def test_the_header_is_c(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -36,10 +37,13 @@ def test_enums_and_inner_structs() -> None:
     assert header.enums()["error"]["UNKNOWN_MATERIAL"] == -5
     assert list(header.enums()["status"].values()) == [0, 1, 2, 3, 4]
     cubature = next(struct for struct in header.structs() if struct.name == "cubature")
-    assert [field.name for field in cubature.fields][-3:] == [
+    assert [field.name for field in cubature.fields][-6:] == [
         "material_kind",
         "material_count",
         "material_moduli",
+        "clusters_count",
+        "clusters_sizes",
+        "clusters_modes",
     ]
 
 
@@ -52,7 +56,7 @@ def test_structs_lie_in_memory_as_the_compiler_puts_them(tmp_path: Path) -> None
         own = f"snapspace_{struct.name}"
         lines.append(f"static_assert(sizeof({own}) == {struct.size});")
         for field in struct.fields:
-            inner = field.name.replace("material_", "material.")
+            inner = re.sub("^(material|clusters)_", r"\1.", field.name)
             lines.append(f"static_assert(offsetof({own}, {inner}) == {field.offset});")
     command = [sys.executable, "-m", "ziglang", "c++", "-target", "wasm32-wasi", "-std=c++20"]
     finished = subprocess.run(

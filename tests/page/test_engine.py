@@ -28,6 +28,7 @@ from snapspace.generators import bar
 from snapspace.material import MATERIALS
 from snapspace.page import packed
 
+from ..clustered import clustered_blends, clustered_model
 from ..shells.strips import WIDE, blended_strips, shell_model
 from .material_models import material_model
 from .tools import assert_node_tests_pass, tool
@@ -227,7 +228,9 @@ def expected(
         "blending": calibrate(blending_model, samples=12, threads=1),
         "blending-cubature": calibrate(blended_cubature_model, samples=12, threads=1),
         "own_boxes": own_boxes,
+        "clustered": clustered_model(cubature_model, 15),
     }
+    models["blending-clustered"] = clustered_blends(models["blending-cubature"], 9)
     materials = {kind: material_model(cubature_model, kind) for kind in MATERIALS}
     shells = {
         "shell": calibrate(shell_model(), samples=12, threads=1),
@@ -249,8 +252,10 @@ def expected(
         "posing": posing_frames(models["posing"]),
         "own_surface": posing_frames(models["own_surface"]),
         "cubature": posing_frames(models["cubature"]),
+        "clustered": posing_frames(models["clustered"]),
         "blending": blending_frames(models["blending"]),
         "blending-cubature": blending_frames(models["blending-cubature"]),
+        "blending-clustered": blending_frames(models["blending-clustered"]),
         "blending-arap": blending_frames(models["blending-arap"]),
         "blending-radius": blending_frames(models["blending-radius"]),
         "blending-shell": blending_frames(models["blending-shell"]),

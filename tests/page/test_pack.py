@@ -19,6 +19,7 @@ from snapspace.page import packed
 from snapspace.page.painted import handle_of_vertex
 from snapspace.page.shape_space import quantised
 
+from ..clustered import clustered_model
 from .material_models import material_model
 
 
@@ -155,6 +156,16 @@ def test_a_cubature_keeps_its_tets(cubature_model: PosingModel, tmp_path: Path) 
     assert "quartic" not in arrays
     assert json.loads(header["about"])["material"] == {"model": elastic.material.kind}
     assert np.array_equal(arrays["cubature_moduli"], elastic.material.moduli)
+
+
+def test_clusters_take_the_place_of_rows(cubature_model: PosingModel, tmp_path: Path) -> None:
+    model = clustered_model(cubature_model, 10)
+    arrays, _ = unpacked(model, tmp_path)
+    rows = model.elastic.stored_rows
+    assert np.array_equal(arrays["cubature_clusters"], rows.sizes)
+    assert np.array_equal(arrays["cubature_local_rows"], rows.rows)
+    assert np.array_equal(arrays["cubature_local_modes"], rows.modes)
+    assert "cubature_rows" not in arrays
 
 
 @pytest.mark.parametrize("kind", sorted(MATERIALS))

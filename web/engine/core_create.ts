@@ -100,6 +100,9 @@ function cubatureOf(exports: CoreExports, memory: CoreMemory, elastic: Cubature,
     rows: rowsOf(exports, memory, elastic, dimension),
     weights: memory.numbers(elastic.weights),
     ...materialOf(exports, memory, elastic.material),
+    clustersCount: elastic.clusters ? elastic.clusters.sizes.length / 2 : 0,
+    clustersSizes: elastic.clusters ? memory.numbers(elastic.clusters.sizes) : 0,
+    clustersModes: elastic.clusters ? memory.numbers(elastic.clusters.modes) : 0,
   });
 }
 

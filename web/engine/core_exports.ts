@@ -152,8 +152,17 @@ export const MATERIAL = {
   },
 } as const satisfies Layout;
 
+export const CLUSTERS = {
+  size: 12,
+  fields: {
+    count: ["int", 0],
+    sizes: ["int", 4],
+    modes: ["int", 8],
+  },
+} as const satisfies Layout;
+
 export const CUBATURE = {
-  size: 24,
+  size: 36,
   fields: {
     tets: ["int", 0],
     rows: ["int", 4],
@@ -161,6 +170,9 @@ export const CUBATURE = {
     materialKind: ["int", 12],
     materialCount: ["int", 16],
     materialModuli: ["int", 20],
+    clustersCount: ["int", 24],
+    clustersSizes: ["int", 28],
+    clustersModes: ["int", 32],
   },
 } as const satisfies Layout;
 

@@ -86,12 +86,23 @@ export interface Quartic {
 /** The energy as a sum over few tets. */
 export interface Cubature {
   readonly kind: "cubature";
-  /** Displacement gradients of the modes, tets x 9 x dimension, or what the core makes them of. */
+  /** Displacement gradients of the modes, tets x 9 x dimension, or what the core makes them of; or with clusters those of
+   * local coordinates, one cluster after the other, tets x 9 x rank. */
   readonly rows: Float32Array<ArrayBuffer> | CornerModes;
+  /** Clusters of tets with local coordinates; null without. */
+  readonly clusters: Clusters | null;
   /** The volume that each tet stands for. */
   readonly weights: Float64Array<ArrayBuffer>;
   /** Of these tets. */
   readonly material: Material;
+}
+
+/** Clusters of neighbouring tets, one after the other, each with its own few coordinates. */
+export interface Clusters {
+  /** Numbers of tets and of local coordinates (rank), clusters x 2. */
+  readonly sizes: Int32Array<ArrayBuffer>;
+  /** From all coordinates to the local ones, one cluster after the other, rank x dimension. */
+  readonly modes: Float32Array<ArrayBuffer>;
 }
 
 /** The exact reduced energies of all poses, polynomials. */

@@ -8,6 +8,7 @@
 #include "online/blended_stars.cpp"
 #include "online/cubature.cpp"
 #include "online/element_probe.cpp"
+#include "online/local_modes.cpp"
 #include "online/probe_entry.cpp"
 #include "online/quartic.cpp"
 #include "online/snapspace_online.cpp"

@@ -1,5 +1,6 @@
 import type { Container } from "./container.ts";
 import type { FileBody } from "./read_body.ts";
+import { readLocalRows } from "./read_local_rows.ts";
 import { materialOfTets } from "./read_material.ts";
 import { blendedStars, starCubature } from "./read_stars.ts";
 import {
@@ -52,9 +53,11 @@ function chosenElements(container: Container, count: number): Int32Array<ArrayBu
 function cubatureOf(container: Container, body: FileBody, basis: Float64Array): Cubature {
   const { shapes, elements, material } = body;
   const chosen = chosenElements(container, elements.length / 4);
+  const dimension = basis.length / shapes[0].length;
+  const local = readLocalRows(container, chosen.length, dimension);
   return {
     kind: "cubature",
-    rows: cornerModes(shapes[0], elements, basis, chosen),
+    ...(local ?? { rows: cornerModes(shapes[0], elements, basis, chosen), clusters: null }),
     weights: container.doubles("cubature_weights", chosen.length),
     material: materialOfTets(material, chosen),
   };

@@ -3,6 +3,7 @@ import type { Container } from "./container.ts";
 import { UnreadableModel } from "./errors.ts";
 import { NO_PINS, type ElementProbe, type Estimator, type Pins, type StarProbe } from "./estimator.ts";
 import { exponentOf } from "./read_estimator.ts";
+import { readLocalRows } from "./read_local_rows.ts";
 import { readMaterial } from "./read_material.ts";
 import {
   coefficientCount,
@@ -94,7 +95,7 @@ interface Known {
 }
 
 function readElastic(container: Container, known: Known): Quartic | Cubature {
-  if (container.has("cubature_rows")) return readCubature(container, known);
+  if (container.has("cubature_weights")) return readCubature(container, known);
   return {
     kind: "quartic",
     coefficients: container.doubles("quartic", coefficientCount(known.dimension)),
@@ -103,9 +104,10 @@ function readElastic(container: Container, known: Known): Quartic | Cubature {
 
 function readCubature(container: Container, { dimension, material }: Known): Cubature {
   const [tets] = container.shape("cubature_weights", 1);
+  const local = readLocalRows(container, tets, dimension);
   return {
     kind: "cubature",
-    rows: container.floats("cubature_rows", tets, 9, dimension),
+    ...(local ?? { rows: container.floats("cubature_rows", tets, 9, dimension), clusters: null }),
     weights: container.doubles("cubature_weights", tets),
     material: readMaterial(container, "cubature_moduli", material),
   };
@@ -113,7 +115,7 @@ function readCubature(container: Container, { dimension, material }: Known): Cub
 
 function readBlends(container: Container, known: Known, poses: number): BlendingModel["blends"] {
   if (container.has("stars_rows")) return readStars(container, known, poses);
-  if (!container.has("cubature_rows")) {
+  if (!container.has("cubature_weights")) {
     const coefficients = container.doubles("quartics", poses, coefficientCount(known.dimension));
     return { kind: "quartics", coefficients };
   }

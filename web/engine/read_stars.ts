@@ -1,5 +1,6 @@
 import type { Container } from "./container.ts";
 import type { BlendedStars, Cubature } from "./model.ts";
+import { readLocalRows } from "./read_local_rows.ts";
 import { oneRings, STAR_MODULI, VertexStars, type RigidSurface, type StarTriangles } from "./vertex_stars.ts";
 
 /** The density of stars. */
@@ -14,9 +15,11 @@ export function starCubature(
 ): Cubature {
   const chosen = chosenStars(container, surface, rest.length / 3);
   const stars = new VertexStars(rest, surface, chosen);
+  const dimension = basis.length / rest.length;
+  const local = readLocalRows(container, chosen.length, dimension);
   return {
     kind: "cubature",
-    rows: rowsOf([stars], basis, basis.length / rest.length),
+    ...(local ?? { rows: rowsOf([stars], basis, dimension), clusters: null }),
     weights: container.doubles("cubature_weights", chosen.length),
     material: { kind: KIND, rows: chosen.length, moduli: stars.moduli },
   };

@@ -33,6 +33,8 @@ for (const [name, ending, kind] of [
   ["blending", "packed", "quartics"],
   ["blending-cubature", "snapspace", "cubature"],
   ["blending-cubature", "packed", "cubature"],
+  ["blending-clustered", "snapspace", "cubature"],
+  ["blending-clustered", "packed", "cubature"],
   ["blending-shell", "snapspace", "cubature"],
   ["blending-shell", "packed", "cubature"],
   ["blending-arap", "snapspace", "stars"],

@@ -40,7 +40,7 @@ function surface(session: PosingSession): Float32Array {
 
 // every material with other moduli in every tet, and shells
 const materials = expected<string[]>("materials.json");
-const models = ["posing", "own_surface", "cubature", ...materials];
+const models = ["posing", "own_surface", "cubature", "clustered", ...materials];
 const files = models.flatMap((name) => [`${name}.snapspace`, `${name}.packed`]);
 for (const file of files)
   test(`a drag is that of Session: ${file}`, async () => {

@@ -1,0 +1,34 @@
+"""clusters: groups of neighbouring points."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.intp]
+
+#: Sizes of groups are multiples of this, so that SIMD lanes of a group are full.
+MULTIPLE = 8
+
+
+def clusters(points: FloatArray, size: int) -> list[IndexArray]:
+    """Divides points (r, 3) into groups of at most `size`, halving along the longest extent.
+
+    Sizes are multiples of eight, except that of the last group. Each group has the indices of its
+    points, ascending. A multiple of eight is needed for `size`.
+    """
+    return _halves(points, np.arange(len(points)), size)
+
+
+def _halves(points: FloatArray, own: IndexArray, size: int) -> list[IndexArray]:
+    if len(own) <= size:
+        return [np.sort(own)]
+    parts = -(-len(own) // size)
+    first = round(len(own) * (parts // 2) / parts / MULTIPLE) * MULTIPLE
+    centred = points[own] - points[own].mean(axis=0)
+    axis = np.linalg.eigh(centred.T @ centred)[1][:, -1]
+    # Rounded, so that neither the sign of the axis nor its last bits decide between equal points.
+    place = np.round(centred @ (axis * np.sign(axis[np.abs(axis).argmax()])), 12)
+    ranked = own[np.argsort(place, kind="stable")]
+    return _halves(points, ranked[:first], size) + _halves(points, ranked[first:], size)
