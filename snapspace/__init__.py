@@ -13,7 +13,7 @@ EXPORTS = {
     "animation": ("write_animation",),
     "calibration": ("calibrate",),
     "certificate": ("Certificate", "ErrorEstimator"),
-    "cubature": ("Cubature", "CubatureErrors"),
+    "cubature": ("Cubature", "CubatureErrors", "LocalRows"),
     "displacements": ("DisplacementRows", "SnapshotGram"),
     "doctor": ("Finding", "MendedSurface", "SurfaceReport", "check_surface", "mend_surface"),
     "energy": ("ElasticEnergy",),

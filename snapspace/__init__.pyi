@@ -9,7 +9,7 @@ from .accurate import (
 from .animation import write_animation
 from .calibration import calibrate
 from .certificate import Certificate, ErrorEstimator
-from .cubature import Cubature, CubatureErrors
+from .cubature import Cubature, CubatureErrors, LocalRows
 from .displacements import DisplacementRows, SnapshotGram
 from .doctor import Finding, MendedSurface, SurfaceReport, check_surface, mend_surface
 from .energy import ElasticEnergy
@@ -168,6 +168,7 @@ __all__ = [
     "InterpolationProblem",
     "Interrupted",
     "Key",
+    "LocalRows",
     "Material",
     "MendedSurface",
     "MeshNotice",
