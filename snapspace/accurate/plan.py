@@ -38,7 +38,7 @@ class Plan:
     held_out : number of samples that judge models
     first_ratio : assumed ratio of errors of reduced solutions to those of projections, before it is
         measured; too low a ratio costs models that miss the target, too high a ratio samples
-    most_dimensions : limit of the dimension, so that a frame of a drag takes 1 to 1.6 ms
+    most_dimensions : limit of the dimension, so that a frame of a drag takes about 1 ms
     impression, impression_dimension : number of loosely solved samples of a first impression, see
         `growing_models`, and the dimension of its model
     most_samples : default limit of samples of small meshes
@@ -133,7 +133,7 @@ MOTIONS = Plan(
     trusts_predictions=False,
     held_out=16,
     first_ratio=4.0,
-    most_dimensions=256,
+    most_dimensions=320,
     impression=36,
     impression_dimension=28,
     most_samples=1280,

@@ -7,8 +7,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from snapspace import ARAP, PosingModel, calibrate, export_html
+from snapspace import (
+    ARAP,
+    PosingModel,
+    calibrate,
+    export_html,
+    reduce,
+    sample,
+    solve_snapshots,
+)
 
+from ..shapes import bar_problem, irregular_bar, random_subspace
 from ..shells.strips import shell_model
 from .pages import OpenPage, Page
 
@@ -83,6 +92,19 @@ def test_a_cubature_is_dragged(
     page.drag(page.run("snapspace.handle(1)"), 60, -50)
     page.drag(page.run("snapspace.handle(2)"), -40, 70)
     assert_shown(cubature_model, page)
+
+
+def test_more_modes_than_layers_of_a_texture(tmp_path: Path, opened: OpenPage) -> None:
+    """The graphics processor evaluates them too: several modes share a layer."""
+    problem = bar_problem(irregular_bar(8, 3, 3))
+    snapshots = solve_snapshots(problem, sample(problem.domain, 12, seed=1), threads=1)
+    subspace = random_subspace(problem.mesh, 300)
+    every = len(problem.mesh.tets)
+    model = reduce(problem, subspace, energy="cubature", snapshots=snapshots, tets=every)
+    page = opened(export_html(model, tmp_path / "modes.html").as_uri())
+    assert page.run("snapspace.onGpu")
+    page.drag(page.run("snapspace.handle(1)"), 60, -50)
+    assert_shown(model, page)
 
 
 @pytest.fixture(scope="module")

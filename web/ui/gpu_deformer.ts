@@ -5,23 +5,31 @@ import { GpuStrains } from "./gpu_strains.ts";
 import { floatTarget, integers, Pass, runPasses } from "./gpu_pass.ts";
 import { rings } from "./rings.ts";
 
-/** Modes that the shader takes: a WebGL 2 texture has at least so many layers. */
-export const MOST_MODES = 256;
+/** A WebGL 2 texture has at least so many layers. With more modes, several share a layer. */
+const MOST_LAYERS = 256;
+/** Modes that the shader takes: their coefficients are half of the 224 vectors of uniforms that WebGL 2 promises. */
+export const MOST_MODES = 448;
 
-/** base + sum_i c_i modes_i, one texel per vertex; mode i is layer i. Then a share of the path to a goal. */
+/**
+ * base + sum_i c_i modes_i, one texel per vertex. A layer has one mode or several, one below the other. Then a share of
+ * the path to a goal.
+ */
 const POSITIONS = `
 uniform sampler2D base;
 uniform isampler2DArray modes;
 uniform vec4 coefficients[${MOST_MODES / 4}];
 uniform int count;
+uniform int perLayer;
 uniform sampler2D goal;
 uniform float share;
 out vec4 result;
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec3 sum = texelFetch(base, at, 0).xyz;
-  for (int i = 0; i < count; i++)
-    sum += coefficients[i >> 2][i & 3] * vec3(texelFetch(modes, ivec3(at, i), 0).xyz);
+  int height = textureSize(base, 0).y;
+  for (int layer = 0, i = 0; i < count; layer++)
+    for (int y = at.y, end = i + perLayer; i < end && i < count; i++, y += height)
+      sum += coefficients[i >> 2][i & 3] * vec3(texelFetch(modes, ivec3(at.x, y, layer), 0).xyz);
   if (share > 0.0) sum = mix(sum, texelFetch(goal, at, 0).xyz, share);
   result = vec4(sum, 1.0);
 }`;
@@ -72,7 +80,8 @@ export class GpuDeformer implements Deformer {
     return (
       graphics.canDrawFloats &&
       space.scales.length <= MOST_MODES &&
-      textureSize(6 * space.vertices)[0] <= graphics.mostTexels
+      textureSize(6 * space.vertices)[0] <= graphics.mostTexels &&
+      modesPerLayer(space) * textureSize(space.vertices)[1] <= graphics.mostTexels
     );
   }
 
@@ -91,7 +100,12 @@ export class GpuDeformer implements Deformer {
     this.#textures = [base, this.#goal, modes, this.#ranges, this.#pairs];
     const make = (shader: string, uniforms: Record<string, Uniform>) =>
       new Pass(graphics, shader, uniforms, floatTarget(graphics, width, height));
-    const textures = { base: { value: base }, modes: { value: modes }, goal: { value: this.#goal } };
+    const textures = {
+      base: { value: base },
+      modes: { value: modes },
+      perLayer: { value: modesPerLayer(space) },
+      goal: { value: this.#goal },
+    };
     this.#positions = make(POSITIONS, { ...textures, ...this.#set });
     this.#normals = make(NORMALS, this.#places);
     this.#passes = [this.#positions, this.#normals];
@@ -167,13 +181,18 @@ function floats(rows: Float32Array, width: number, height: number): Texture {
   return texture;
 }
 
-/** Modes as layers of an array of textures, without a copy in floats. */
+function modesPerLayer(space: ShapeSpace): number {
+  return Math.max(Math.ceil(space.scales.length / MOST_LAYERS), 1);
+}
+
+/** Modes in the layers of an array of textures, without a copy in floats. */
 function layers(space: ShapeSpace, width: number, height: number): Texture {
-  const count = Math.max(space.scales.length, 1); // without modes one that nobody reads
-  const texels = new Int16Array(4 * width * height * count);
+  const perLayer = modesPerLayer(space);
+  const count = Math.max(Math.ceil(space.scales.length / perLayer), 1); // without modes one that nobody reads
+  const texels = new Int16Array(4 * width * height * perLayer * count);
   const size = 3 * space.vertices;
   for (let mode = 0; mode < space.scales.length; mode++)
     for (let from = 0, to = 4 * width * height * mode; from < size; from += 3, to += 4)
       for (let axis = 0; axis < 3; axis++) texels[to + axis] = space.modes[mode * size + from + axis];
-  return new Texture({ format: "rgba16i", width, height, layers: count, data: texels });
+  return new Texture({ format: "rgba16i", width, height: perLayer * height, layers: count, data: texels });
 }
