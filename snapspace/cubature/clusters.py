@@ -15,8 +15,8 @@ MULTIPLE = 8
 def clusters(points: FloatArray, size: int) -> list[IndexArray]:
     """Divides points (r, 3) into groups of at most `size`, halving along the longest extent.
 
-    Sizes are multiples of eight, except that of the last group. Each group has the indices of its
-    points, ascending. A multiple of eight is needed for `size`.
+    Each group has the indices of its points, ascending. Their numbers are multiples of eight,
+    except the last one; so must `size` be.
     """
     return _halves(points, np.arange(len(points)), size)
 
@@ -28,7 +28,8 @@ def _halves(points: FloatArray, own: IndexArray, size: int) -> list[IndexArray]:
     first = round(len(own) * (parts // 2) / parts / MULTIPLE) * MULTIPLE
     centred = points[own] - points[own].mean(axis=0)
     axis = np.linalg.eigh(centred.T @ centred)[1][:, -1]
-    # Rounded, so that neither the sign of the axis nor its last bits decide between equal points.
-    place = np.round(centred @ (axis * np.sign(axis[np.abs(axis).argmax()])), 12)
+    place = centred @ (axis * np.sign(axis[np.abs(axis).argmax()]))
+    # Rounded, so that last bits do not decide between points at the same place.
+    place = np.round(place / max(np.abs(place).max(), np.finfo(float).tiny), 9)
     ranked = own[np.argsort(place, kind="stable")]
     return _halves(points, ranked[:first], size) + _halves(points, ranked[first:], size)

@@ -97,16 +97,17 @@ class _Parts:
 
     @classmethod
     def of(cls, energy: Cubature | BlendedSum, states: ElasticStates) -> _Parts | None:
-        """None if no tet has a stress at any of the states."""
+        """None if most tets have no stiffness, or none has a stress at any of the states."""
         some = states.chosen(np.unique(np.linspace(0, len(states) - 1, STATES).round().astype(int)))
         curvatures, stresses = some.curvatures(energy), some.sum_stresses(energy)
         stiffnesses = np.trace(curvatures.astype(np.float64), axis1=1, axis2=2) / 9.0
+        typical = float(np.median(stiffnesses))
+        if typical <= 0.0 or not stresses.any():
+            return None
         # Tets that a pose squeezes are far stiffer, and the curvature of some may be negative.
-        scales = np.sqrt(np.maximum(stiffnesses, 1e-6 * np.median(stiffnesses)))
+        scales = np.sqrt(np.maximum(stiffnesses, 1e-6 * typical))
         stresses = stresses / scales[:, None]
         unit = np.linalg.norm(stresses)
-        if unit == 0.0:
-            return None
         gradients = some.coordinates / (OF_GRADIENTS * unit)
         values, vectors = np.linalg.eigh(some.hessians(energy)(None))
         motions = vectors / np.sqrt(np.maximum(values, 1e-10 * values[-1])) / OF_MOTIONS

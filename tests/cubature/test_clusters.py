@@ -39,7 +39,7 @@ def test_groups_are_neighbours() -> None:
 def test_groups_do_not_depend_on_the_unit_or_place() -> None:
     points = np.random.default_rng(2).normal(size=(200, 3)) * [3.0, 1.0, 2.0]
     expected = clusters(points, 48)
-    for moved in (1e-3 * points, 1e3 * points, points + np.array([5.0, -7.0, 1.0])):
+    for moved in (1e-12 * points, 1e3 * points, points + np.array([5.0, -7.0, 1.0])):
         for group, other in zip(expected, clusters(moved, 48), strict=True):
             np.testing.assert_array_equal(group, other)
 

@@ -27,15 +27,20 @@ from snapspace.reduction import solved_coordinates
 from ..shapes import bar_problem, irregular_bar
 
 FloatArray = NDArray[np.float64]
+BOUNDS = ("OF_MOTIONS", "OF_GRADIENTS", "OF_STRESSES")
 
 
 @pytest.fixture(scope="module")
 def model() -> PosingModel:
     """A long bar in a hundred dimensions, with 800 tets."""
+    return long_bar(samples=120, dimension=100)
+
+
+def long_bar(*, samples: int, dimension: int) -> PosingModel:
     bar = bar_problem(irregular_bar(40, 4, 4))
     problem = PosingProblem(bar.mesh, bar.handles, domain=bar.domain, material=StableNeoHookean())
-    snapshots = solve_snapshots(problem, sample(problem.domain, 120, seed=1), threads=1)
-    subspace = snapshot_pca(snapshots, dimension=100)
+    snapshots = solve_snapshots(problem, sample(problem.domain, samples, seed=1), threads=1)
+    subspace = snapshot_pca(snapshots, dimension=dimension)
     return reduce(problem, subspace, energy="cubature", snapshots=snapshots)
 
 
@@ -83,10 +88,10 @@ def test_what_may_be_left_out_decides(model: PosingModel, monkeypatch: pytest.Mo
     dense, q = model.cubature, model.training_coordinates[3]
     exact = dense.value_and_gradient(q)[1]
     monkeypatch.setattr("snapspace.cubature.local_rows.MOST", 10.0)
+    bounds = {name: getattr(local_coordinates, name) for name in BOUNDS}
     sizes, errors = [], []
     for factor in (10.0, 1.0, 0.1, 1e-3):
-        for name in ("OF_MOTIONS", "OF_GRADIENTS", "OF_STRESSES"):
-            bound = {"OF_MOTIONS": 0.2, "OF_GRADIENTS": 1e-3, "OF_STRESSES": 0.01}[name]
+        for name, bound in bounds.items():
             monkeypatch.setattr(local_coordinates, name, factor * bound)
         local = localised(model)
         sizes.append(local.stored_rows.numbers)
@@ -110,13 +115,31 @@ def test_small_sums_stay_as_they_are(model: PosingModel) -> None:
     assert not isinstance(model.cubature.stored_rows, LocalRows)
 
 
-def test_blends_keep_their_frames(blended_cubature_model: InterpolationModel) -> None:
+def test_large_models_have_local_coordinates() -> None:
+    large = long_bar(samples=160, dimension=140).cubature
+    assert large.rows.size > local_coordinates.FEWEST_NUMBERS
+    assert isinstance(large.stored_rows, LocalRows)
+
+
+def test_states_without_stresses_say_nothing(model: PosingModel) -> None:
+    at_rest = replace(states_of(model), coordinates=np.zeros((3, model.dimension)))
+    assert with_local_coordinates(model.cubature, at_rest, fewest=0) is model.cubature
+
+
+def test_blends_keep_their_frames(
+    blended_cubature_model: InterpolationModel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Clusters of so small a model save nothing, and are made all the same."""
+    monkeypatch.setattr("snapspace.cubature.local_rows.MOST", 10.0)
+    for name in BOUNDS:
+        monkeypatch.setattr(local_coordinates, name, 5.0 * getattr(local_coordinates, name))
     model = blended_cubature_model
     states = BlendingStates(
         model.problem, model.subspace, model.training_coordinates, model.training_parameters
     )
     local = with_local_coordinates(model.blends, states, fewest=0, threads=1)
+    assert local.stored_rows.sizes[:, 1].min() < model.dimension
     weights = model.problem.domain.from_unit(np.random.default_rng(6).random((8, 2)))
     exact = solved_coordinates(model, weights)
     moved = solved_coordinates(replace(model, blends=local), weights) - exact
-    assert np.linalg.norm(moved, axis=1).max() < 0.003 * np.linalg.norm(exact, axis=1).max()
+    assert np.linalg.norm(moved, axis=1).max() < 0.01 * np.linalg.norm(exact, axis=1).max()

@@ -12,8 +12,7 @@ from snapspace import Cubature, InterpolationModel
 from snapspace.cubature import BlendedCubature, LocalRows
 
 from ..clustered import TETS, local_rows
-from ..taylor import observed_order
-from .test_cubature import cubature
+from .test_cubature import assert_derivatives, cubature
 
 FloatArray = NDArray[np.float64]
 
@@ -78,22 +77,7 @@ def test_all_local_coordinates_leave_nothing_out() -> None:
 
 @pytest.mark.parametrize(("dimension", "tets", "rank"), [(12, 60, 7), (11, 33, 3)])
 def test_taylor(dimension: int, tets: int, rank: int) -> None:
-    elastic = clustered(dimension, tets, rank)
-    rng = np.random.default_rng(3)
-    q, direction = rng.normal(size=dimension), rng.normal(size=dimension)
-    value, gradient = elastic.value_and_gradient(q)
-    hessian = elastic.hessian(q)
-    np.testing.assert_array_equal(hessian, hessian.T)
-
-    def first(t: float) -> float:
-        return abs(elastic.value(q + t * direction) - value - t * gradient @ direction)
-
-    def second(t: float) -> float:
-        change = elastic.value_and_gradient(q + t * direction)[1] - gradient
-        return float(np.linalg.norm(change - t * hessian @ direction))
-
-    assert observed_order(first) == pytest.approx(2, abs=0.1)
-    assert observed_order(second) == pytest.approx(2, abs=0.1)
+    assert_derivatives(clustered(dimension, tets, rank), seed=3)
 
 
 def test_rest_has_no_energy_and_no_force() -> None:
