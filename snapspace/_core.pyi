@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 import enum
+from typing import Annotated, overload
 
 import numpy
 from numpy.typing import NDArray
@@ -628,6 +629,17 @@ class BlendingLoop(LiveLoop):
 
     def set_weights(self, weights: NDArray[numpy.float64]) -> None: ...
 
+class TetRows:
+    """
+    Displacement gradients of tets, linear in all coordinates or in those of clusters.
+    """
+
+    @overload
+    def __init__(self, rows: NDArray[numpy.float32]) -> None: ...
+
+    @overload
+    def __init__(self, sizes: NDArray[numpy.int32], rows: NDArray[numpy.float32], modes: NDArray[numpy.float32]) -> None: ...
+
 class TetFunction(ReducedFunction):
     """A weighted sum over few tets."""
 
@@ -639,20 +651,15 @@ class TetFunction(ReducedFunction):
     def stresses(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float32]:
         """Weighted stresses (r, 9) of the tets, float32."""
 
-class LocalRows:
-    """Displacement gradients of tets in clusters with local coordinates."""
-
-    def __init__(self, sizes: NDArray[numpy.int32], rows: NDArray[numpy.float32], modes: NDArray[numpy.float32]) -> None: ...
-
 class Cubature(TetFunction):
     """Elastic energy as a weighted sum over few tets."""
 
-    def __init__(self, rows: NDArray[numpy.float32] | LocalRows, weights: NDArray[numpy.float64], material: Material) -> None: ...
+    def __init__(self, rows: TetRows, weights: NDArray[numpy.float64], material: Material) -> None: ...
 
 class CubatureLoop(PosingLoop):
     """The live loop of posing with a cubature instead of a quartic."""
 
-    def __init__(self, rows: NDArray[numpy.float32] | LocalRows, weights: NDArray[numpy.float64], material: Material, K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64]) -> None: ...
+    def __init__(self, rows: TetRows, weights: NDArray[numpy.float64], material: Material, K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64]) -> None: ...
 
 class BlendedFunction(TetFunction):
     """Blended energy of several poses."""
@@ -662,7 +669,7 @@ class BlendedFunction(TetFunction):
 class BlendedCubature(BlendedFunction):
     """Blended energy of several poses as a weighted sum over few tets."""
 
-    def __init__(self, rows: NDArray[numpy.float32] | LocalRows, weights: NDArray[numpy.float64], material: Material, corners: NDArray[numpy.float64]) -> None: ...
+    def __init__(self, rows: TetRows, weights: NDArray[numpy.float64], material: Material, corners: NDArray[numpy.float64]) -> None: ...
 
 class BlendedStars(BlendedFunction):
     """
@@ -674,7 +681,7 @@ class BlendedStars(BlendedFunction):
 class BlendedCubatureLoop(BlendingLoop):
     """The live loop of blending with a cubature instead of quartics."""
 
-    def __init__(self, rows: NDArray[numpy.float32] | LocalRows, weights: NDArray[numpy.float64], material: Material, corners: NDArray[numpy.float64]) -> None: ...
+    def __init__(self, rows: TetRows, weights: NDArray[numpy.float64], material: Material, corners: NDArray[numpy.float64]) -> None: ...
 
 class BlendedStarsLoop(BlendingLoop):
     """The live loop of blending with stars instead of quartics."""

@@ -1,42 +1,17 @@
-#include <nanobind/stl/variant.h>
-
-#include <variant>
-
 #include "bindings/live_loop.h"
-#include "bindings/local_rows.h"
+#include "bindings/tet_rows.h"
 #include "energy/material_field.h"
 
 namespace snapspace {
 
 namespace {
 
-/// Rows (tets, 9, d), or those of local coordinates.
-using RowsIn = std::variant<SingleTensorIn, LocalRows>;
-
-live::CubatureArrays arrays_of(const SingleTensorIn& rows, const VectorIn& weights,
-                               const MaterialField& material) {
-  require(rows.shape(0) >= 1 && rows.shape(1) == 9 && rows.shape(2) >= 1 &&
-              weights.size() == rows.shape(0),
-          "rows (tets, 9, d) and weights (tets,) do not match");
-  return {static_cast<int>(rows.shape(2)), static_cast<int>(rows.shape(0)), rows.data(),
-          weights.data(), material.view()};
-}
-
-live::CubatureArrays arrays_of(const LocalRows& rows, const VectorIn& weights,
-                               const MaterialField& material) {
-  require(weights.size() == rows.tets, "the clusters and weights (tets,) do not match");
-  return {static_cast<int>(rows.dimension()),
-          static_cast<int>(rows.tets),
-          rows.rows.data(),
-          weights.data(),
-          material.view(),
-          rows.clusters()};
-}
-
-live::CubatureArrays cubature_arrays(const RowsIn& rows, const VectorIn& weights,
+live::CubatureArrays cubature_arrays(const TetRows& rows, const VectorIn& weights,
                                      const MaterialField& material) {
+  require(weights.size() == static_cast<std::size_t>(rows.arrays().tets),
+          "rows and weights (tets,) do not match");
   require(material.fits(weights.size()), "the material has moduli for a different number of tets");
-  return std::visit([&](const auto& given) { return arrays_of(given, weights, material); }, rows);
+  return {rows.arrays(), weights.data(), material.view()};
 }
 
 /// @param corners  (poses + 1, tets, 12): the tets in each pose, and at the mean shape
@@ -79,7 +54,7 @@ void bind_blended(nb::module_& m) {
       m, "BlendedCubature", "Blended energy of several poses as a weighted sum over few tets.")
       .def(
           "__init__",
-          [](BlendedCubature* self, const RowsIn& rows, VectorIn weights,
+          [](BlendedCubature* self, const TetRows& rows, VectorIn weights,
              const MaterialField& material, TensorIn corners) {
             new (self) BlendedCubature(live::blended_cubature(
                 cubature_arrays(rows, weights, material), pose_arrays(corners, weights.size())));
@@ -102,7 +77,7 @@ void bind_blended(nb::module_& m) {
       m, "BlendedCubatureLoop", "The live loop of blending with a cubature instead of quartics.")
       .def(
           "__init__",
-          [](BlendedCubatureLoop* self, const RowsIn& rows, VectorIn weights,
+          [](BlendedCubatureLoop* self, const TetRows& rows, VectorIn weights,
              const MaterialField& material, TensorIn corners) {
             new (self)
                 BlendedCubatureLoop(live::blending_solver(cubature_arrays(rows, weights, material),
@@ -127,6 +102,13 @@ void bind_blended(nb::module_& m) {
 }  // namespace
 
 void bind_cubature(nb::module_& m) {
+  nb::class_<TetRows>(m, "TetRows",
+                      "Displacement gradients of tets, linear in all coordinates or in those of "
+                      "clusters.")
+      .def(nb::init<SingleTensorIn>(), nb::arg("rows"))
+      .def(nb::init<IndexMatrixIn, SingleVectorIn, SingleMatrixIn>(), nb::arg("sizes"),
+           nb::arg("rows"), nb::arg("modes"));
+
   nb::class_<TetFunction, ReducedFunction>(m, "TetFunction", "A weighted sum over few tets.")
       .def(
           "curvatures",
@@ -150,16 +132,11 @@ void bind_cubature(nb::module_& m) {
           },
           nb::arg("q"), "Weighted stresses (r, 9) of the tets, float32.");
 
-  nb::class_<LocalRows>(m, "LocalRows",
-                        "Displacement gradients of tets in clusters with local coordinates.")
-      .def(nb::init<IndexMatrixIn, SingleVectorIn, SingleMatrixIn>(), nb::arg("sizes"),
-           nb::arg("rows"), nb::arg("modes"));
-
   nb::class_<Cubature, TetFunction>(m, "Cubature",
                                     "Elastic energy as a weighted sum over few tets.")
       .def(
           "__init__",
-          [](Cubature* self, const RowsIn& rows, VectorIn weights, const MaterialField& material) {
+          [](Cubature* self, const TetRows& rows, VectorIn weights, const MaterialField& material) {
             live::TetPointer function = live::cubature(cubature_arrays(rows, weights, material));
             live::TetFunction* sum = function.get();
             new (self) Cubature{{{std::move(function)}, sum}};
@@ -170,12 +147,12 @@ void bind_cubature(nb::module_& m) {
       m, "CubatureLoop", "The live loop of posing with a cubature instead of a quartic.")
       .def(
           "__init__",
-          [](CubatureLoop* self, const RowsIn& rows, VectorIn weights,
+          [](CubatureLoop* self, const TetRows& rows, VectorIn weights,
              const MaterialField& material, MatrixIn K, TensorIn L, TensorIn S) {
             constexpr auto kMismatch =
                 "rows (tets, 9, d), K (d,d), L (h,d,12), S (h,4,4) do not match";
             const live::CubatureArrays elastic = cubature_arrays(rows, weights, material);
-            require(K.shape(0) == static_cast<std::size_t>(elastic.dimension), kMismatch);
+            require(K.shape(0) == static_cast<std::size_t>(elastic.rows.dimension), kMismatch);
             new (self) CubatureLoop(
                 live::posing_solver(elastic, handle_arrays(K, L, S, kMismatch)),
                 "the reduced Hessian at rest is not positive definite; the cubature has too few "

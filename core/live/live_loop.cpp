@@ -122,19 +122,20 @@ online::Storage storage(bool single) {
   return single ? online::Storage::single_precision : online::Storage::double_precision;
 }
 
-online::RowClusters clusters_of(const CubatureArrays& arrays) {
-  return {arrays.clusters.count, arrays.clusters.sizes, arrays.clusters.modes};
+online::RowClusters clusters_of(const RowArrays& rows) {
+  return {rows.clusters.count, rows.clusters.sizes, rows.clusters.modes};
 }
 
 Cubature make_cubature(const CubatureArrays& arrays) {
-  return {arrays.dimension, arrays.tets,     arrays.rows,
-          arrays.weights,   arrays.material, clusters_of(arrays)};
+  const RowArrays& rows = arrays.rows;
+  return {rows.dimension, rows.tets, rows.rows, arrays.weights, arrays.material, clusters_of(rows)};
 }
 
 BlendedCubature make_cubature(const CubatureArrays& arrays, const PoseArrays& poses) {
-  return {arrays.dimension,   arrays.tets,     arrays.rows,
-          arrays.weights,     arrays.material, {poses.poses, poses.corners, poses.tau},
-          clusters_of(arrays)};
+  const RowArrays& rows = arrays.rows;
+  return {rows.dimension,   rows.tets,       rows.rows,
+          arrays.weights,   arrays.material, {poses.poses, poses.corners, poses.tau},
+          clusters_of(rows)};
 }
 
 BlendedStars make_stars(const StarArrays& arrays) {

@@ -62,13 +62,18 @@ struct ClusterArrays {
   const float* modes = nullptr;
 };
 
-/// Sizes and arrays of a cubature; see online::Cubature.
-struct CubatureArrays {
+/// Displacement gradients of tets; see online::TetRows.
+struct RowArrays {
   int dimension, tets;
   const float* rows;
+  ClusterArrays clusters;
+};
+
+/// The arrays of a cubature; see online::Cubature.
+struct CubatureArrays {
+  RowArrays rows;
   const double* weights;
   TetMaterial material;
-  ClusterArrays clusters = {};
 };
 
 /// Some tets of a body in several poses; see online::PoseTets.

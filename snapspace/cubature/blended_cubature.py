@@ -16,7 +16,6 @@ from .blended_elements import BlendedElements
 from .chosen_tets import check_chosen, check_in_mesh
 from .displacement_gradients import displacement_gradients
 from .local_rows import (
-    CoreRows,
     LocalRows,
     core_rows,
     dimension_of,
@@ -108,7 +107,7 @@ class BlendedCubature(BlendedElements):
         return type(self), (self.tets, self.weights, self.stored_rows, self.material, self.corners)
 
     @property
-    def core_arguments(self) -> tuple[CoreRows, FloatArray, core.Material, FloatArray]:
+    def core_arguments(self) -> tuple[core.TetRows, FloatArray, core.Material, FloatArray]:
         """Arguments of the compiled part: rows, weights, material, corners (poses + 1, r, 12)."""
         flat = self.corners.reshape(*self.corners.shape[:2], 12)
         return core_rows(self.stored_rows), self.weights, self.material.core, flat

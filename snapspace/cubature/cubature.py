@@ -14,7 +14,7 @@ from ..problem import PosingProblem
 from ..subspace import AffineSubspace
 from .chosen_tets import check_chosen, check_in_mesh
 from .elements import posed_elements_of
-from .local_rows import CoreRows, LocalRows, core_rows, dimension_of, leading_rows, products, stored
+from .local_rows import LocalRows, core_rows, dimension_of, leading_rows, products, stored
 from .summed_curvatures import summed_curvatures
 
 FloatArray = NDArray[np.float64]
@@ -104,7 +104,7 @@ class Cubature:
         return products(self.stored_rows)
 
     @property
-    def core_rows(self) -> CoreRows:
+    def core_rows(self) -> core.TetRows:
         """The rows as compiled energies take them."""
         return core_rows(self.stored_rows)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +12,6 @@ from .. import _core as core
 
 #: Local coordinates are worth their error where they take at most this share of the numbers.
 MOST = 0.8
-
-#: What the compiled energies take as rows.
-CoreRows: TypeAlias = NDArray[np.float32] | core.LocalRows
 
 
 @dataclass(frozen=True)
@@ -39,9 +35,9 @@ class LocalRows:
     modes: NDArray[np.float32]
 
     @property
-    def core(self) -> core.LocalRows:
-        """The arguments of the compiled energies."""
-        return core.LocalRows(self.sizes, self.rows, self.modes)
+    def core(self) -> core.TetRows:
+        """What the compiled energies take."""
+        return core.TetRows(self.sizes, self.rows, self.modes)
 
     @property
     def tets(self) -> int:
@@ -85,9 +81,9 @@ def stored(rows: NDArray[np.float32] | LocalRows) -> NDArray[np.float32] | Local
     return rows if isinstance(rows, LocalRows) else np.ascontiguousarray(rows, np.float32)
 
 
-def core_rows(rows: NDArray[np.float32] | LocalRows) -> CoreRows:
-    """The argument of the compiled energies."""
-    return rows.core if isinstance(rows, LocalRows) else rows
+def core_rows(rows: NDArray[np.float32] | LocalRows) -> core.TetRows:
+    """What the compiled energies take."""
+    return rows.core if isinstance(rows, LocalRows) else core.TetRows(rows)
 
 
 def products(rows: NDArray[np.float32] | LocalRows) -> NDArray[np.float32]:

@@ -189,7 +189,9 @@ def test_bad_arrays_are_named() -> None:
     with pytest.raises(ValueError, match="weights must have one entry per pose"):
         few.value_and_gradient(np.zeros(D), np.ones(2))
     with pytest.raises(ValueError, match="corners must be"):
-        core.BlendedCubature(few.rows, few.weights, few.material.core, np.zeros((2, 4, 12)))
+        core.BlendedCubature(
+            core.TetRows(few.rows), few.weights, few.material.core, np.zeros((2, 4, 12))
+        )
 
 
 @pytest.mark.parametrize("stable_after", [1, 2, 99])
