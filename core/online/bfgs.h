@@ -49,7 +49,7 @@ class Bfgs {
   bool line_search(Objective& objective, const double* q, Report& report, double slope,
                    const Termination& stop);
   double evaluate(Objective& objective, const double* q, double step, Report& report);
-  [[gnu::noinline]] void multiply(const double* gradient);  // shared: a page has little room
+  void multiply(const double* gradient);
   void set_direction();
   void advance();
 

@@ -107,7 +107,7 @@ void BlendedCubature::add_offsets(int block, const Tets modes[3][3], Tets G[3][3
 }
 
 double BlendedCubature::value_and_gradient(const double* q, double* gradient) {
-  return block_sum(rows_, half_runner_, q, energy_of(*this), gradient);
+  return block_sum(rows_, half_runner_, q, *this, gradient);
 }
 
 BlendedCubature::Tets BlendedCubature::block_energy(int block, const Tets modes[3][3],
@@ -186,18 +186,18 @@ double BlendedCubature::derivatives(const double* q, double* gradient, double* h
   const double value = value_and_gradient(q, gradient);
   const auto d = static_cast<std::size_t>(dimension());
   std::fill_n(hessian, d * d, 0.0);
-  add_block_hessians(rows_, half_runner_, second_half_, curvatures_of(*this), hessian);
+  add_block_hessians(rows_, half_runner_, second_half_, *this, hessian);
   return value;
 }
 
 void BlendedCubature::curvatures(const double* q, float* hessians) {
   rows_.begin(q);
-  store_block_curvatures(rows_, curvatures_of(*this), hessians);
+  rows_.store_curvatures(*this, hessians);
 }
 
 void BlendedCubature::stresses(const double* q, float* stresses) {
   rows_.begin(q);
-  store_block_stresses(rows_, energy_of(*this), stresses);
+  rows_.store_stresses(*this, stresses);
 }
 
 }  // namespace snapspace::online

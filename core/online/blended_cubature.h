@@ -18,7 +18,7 @@ struct PoseTets {
 /// all poses, and for any density. See PoseBlend for the energy of a tet.
 /// A density that collapses is evaluated once per tet, for any number of poses; the others once per
 /// tet and pose. Allocates no memory after construction.
-class BlendedCubature {
+class BlendedCubature final : public TetEnergies {
  public:
   static constexpr bool kHessianIsExpensive = true;
 
@@ -57,12 +57,9 @@ class BlendedCubature {
   /// Weighted stresses of the tets at q (d), tets x 9.
   void stresses(const double* q, float* stresses);
 
-  using Tets = TetRows::Tets;
-  /// Energies of a block's tets, and their stresses, by the displacement gradients of the modes;
-  /// see TetRows::sum.
-  Tets block_energy(int block, const Tets modes[3][3], Tets P[3][3]) const;
-  /// Hessians (9 x 9) of a block's tets; see TetRows::add_hessian.
-  void block_curvatures(int block, const Tets modes[3][3], Tets hessian[9][9]) const;
+  /// See TetEnergies; `modes` are the displacement gradients of the modes.
+  Tets block_energy(int block, const Tets modes[3][3], Tets P[3][3]) const override;
+  void block_curvatures(int block, const Tets modes[3][3], Tets hessian[9][9]) const override;
 
  private:
   void set_tet(int tet, double weight, const double* moduli, const PoseTets& poses);

@@ -84,7 +84,7 @@ double BlendedStars::add_form(const double* q, double* gradient) const {
 }
 
 double BlendedStars::value_and_gradient(const double* q, double* gradient) {
-  const double value = block_sum(rows_, half_runner_, q, energy_of(*this), gradient);
+  const double value = block_sum(rows_, half_runner_, q, *this, gradient);
   return value + add_form(q, gradient);
 }
 
@@ -108,18 +108,18 @@ double BlendedStars::derivatives(const double* q, double* gradient, double* hess
   const auto d = static_cast<std::size_t>(dimension()), stride = form_.size() / (capacity() + 1);
   for (std::size_t i = 0; i < d; ++i)
     for (std::size_t j = 0; j < d; ++j) hessian[i * d + j] = 2.0 * form_[i * stride + j];
-  add_block_hessians(rows_, half_runner_, second_half_, curvatures_of(*this), hessian);
+  add_block_hessians(rows_, half_runner_, second_half_, *this, hessian);
   return value;
 }
 
 void BlendedStars::curvatures(const double* q, float* hessians) {
   rows_.begin(q);
-  store_block_curvatures(rows_, curvatures_of(*this), hessians);
+  rows_.store_curvatures(*this, hessians);
 }
 
 void BlendedStars::stresses(const double* q, float* stresses) {
   rows_.begin(q);
-  store_block_stresses(rows_, energy_of(*this), stresses);
+  rows_.store_stresses(*this, stresses);
 }
 
 }  // namespace snapspace::online

@@ -23,7 +23,7 @@ struct PoseStars {
 /// few stars, the same for all poses, and an exact quadratic form for the rest; see VertexStars.
 /// The rotations of a star differ from pose to pose, so an evaluation costs 18 r d multiply-adds
 /// for each pose whose weight is not zero. Allocates no memory after construction.
-class BlendedStars {
+class BlendedStars final : public TetEnergies {
  public:
   static constexpr bool kHessianIsExpensive = true;
 
@@ -57,12 +57,9 @@ class BlendedStars {
   /// Weighted derivatives of the stars' energies by these numbers, poses x stars x 9.
   void stresses(const double* q, float* stresses);
 
-  using Tets = TetRows::Tets;
-  /// Energies of a block's stars, and their derivatives by the nine numbers of the modes; see
-  /// TetRows::sum.
-  Tets block_energy(int block, const Tets modes[3][3], Tets P[3][3]) const;
-  /// Hessians (9 x 9) of a block's stars; see TetRows::add_hessian.
-  void block_curvatures(int block, const Tets modes[3][3], Tets hessian[9][9]) const;
+  /// See TetEnergies; `modes` are their nine numbers.
+  Tets block_energy(int block, const Tets modes[3][3], Tets P[3][3]) const override;
+  void block_curvatures(int block, const Tets modes[3][3], Tets hessian[9][9]) const override;
 
  private:
   void add_origins(int block, const Tets modes[3][3], Tets G[3][3]) const;

@@ -28,7 +28,7 @@ Cubature::Tets Cubature::block_energy(int block, const Tets G[3][3], Tets P[3][3
 }
 
 double Cubature::value_and_gradient(const double* q, double* gradient) {
-  return block_sum(rows_, half_runner_, q, energy_of(*this), gradient);
+  return block_sum(rows_, half_runner_, q, *this, gradient);
 }
 
 /// Weighted Hessians (9 x 9) of a block's tets by their displacement gradients; zero for lanes
@@ -48,18 +48,18 @@ double Cubature::derivatives(const double* q, double* gradient, double* hessian)
   const double value = value_and_gradient(q, gradient);
   const auto d = static_cast<std::size_t>(dimension());
   std::fill_n(hessian, d * d, 0.0);
-  add_block_hessians(rows_, half_runner_, second_half_, curvatures_of(*this), hessian);
+  add_block_hessians(rows_, half_runner_, second_half_, *this, hessian);
   return value;
 }
 
 void Cubature::curvatures(const double* q, float* hessians) {
   rows_.begin(q);
-  store_block_curvatures(rows_, curvatures_of(*this), hessians);
+  rows_.store_curvatures(*this, hessians);
 }
 
 void Cubature::stresses(const double* q, float* stresses) {
   rows_.begin(q);
-  store_block_stresses(rows_, energy_of(*this), stresses);
+  rows_.store_stresses(*this, stresses);
 }
 
 }  // namespace snapspace::online

@@ -12,7 +12,7 @@ namespace snapspace::online {
 /// With positive weights (cubature [An, Kim & James 2008]) it is bounded below if the density is.
 /// An evaluation costs 18 r d multiply-adds for r tets, see TetRows. Allocates no memory after
 /// construction.
-class Cubature {
+class Cubature final : public TetEnergies {
  public:
   /// Whether a Hessian costs much more than a gradient.
   static constexpr bool kHessianIsExpensive = true;
@@ -47,11 +47,9 @@ class Cubature {
   /// Weighted stresses of the tets at q (d), tets x 9.
   void stresses(const double* q, float* stresses);
 
-  using Tets = TetRows::Tets;
-  /// Energies of a block's tets, and their stresses; see TetRows::sum.
-  Tets block_energy(int block, const Tets G[3][3], Tets P[3][3]) const;
-  /// Hessians (9 x 9) of a block's tets; see TetRows::add_hessian.
-  void block_curvatures(int block, const Tets G[3][3], Tets hessian[9][9]) const;
+  /// See TetEnergies.
+  Tets block_energy(int block, const Tets G[3][3], Tets P[3][3]) const override;
+  void block_curvatures(int block, const Tets G[3][3], Tets hessian[9][9]) const override;
 
  private:
   TetRows rows_;

@@ -172,9 +172,65 @@ void TetRows::add_forces(const Cluster& cluster, Half& work) const {
   modes.add_transposed(pairs_, work.packs.data(), work.sums.data());
 }
 
+double TetRows::sum(int half, const TetEnergies& energies) {
+  double value = 0.0;
+  Half& work = halves_[half];
+  visit(
+      work, blocks_of(half),
+      [&](const Cluster& cluster, int block) {
+        Tets G[3][3], P[3][3];
+        gradients(cluster, work, block, G);
+        value += lane_sum(energies.block_energy(block, G, P));
+        add_stresses(cluster, work, block, P);
+      },
+      [&](const Cluster& cluster) { add_forces(cluster, work); });
+  return value;
+}
+
 void TetRows::end(double* gradient) const {
   for (int mode = 0; mode < dimension_; ++mode)
     gradient[mode] = lane_sum(halves_[0].sums[mode] + halves_[1].sums[mode]);
+}
+
+void TetRows::add_hessian(int half, const TetEnergies& energies, double* hessian) {
+  Half& work = halves_[half];
+  visit(
+      work, blocks_of(half),
+      [&](const Cluster& cluster, int block) {
+        Tets G[3][3], C[9][9];
+        gradients(cluster, work, block, G);
+        energies.block_curvatures(block, G, C);
+        add_curvatures(cluster, block, C, cluster.is_local() ? work.hessian.data() : hessian);
+      },
+      [&](const Cluster& cluster) { add_local_hessian(cluster, work, hessian); });
+}
+
+void TetRows::store_curvatures(const TetEnergies& energies, float* to) {
+  Half& work = halves_[0];
+  visit(
+      work, all_,
+      [&](const Cluster& cluster, int block) {
+        Tets G[3][3], C[9][9];
+        gradients(cluster, work, block, G);
+        energies.block_curvatures(block, G, C);
+        for (int lane = 0; lane < lanes(block); ++lane)
+          for (int e = 0; e < 81; ++e) *to++ = static_cast<float>(C[e / 9][e % 9][lane]);
+      },
+      [](const Cluster&) {});
+}
+
+void TetRows::store_stresses(const TetEnergies& energies, float* to) {
+  Half& work = halves_[0];
+  visit(
+      work, all_,
+      [&](const Cluster& cluster, int block) {
+        Tets G[3][3], P[3][3];
+        gradients(cluster, work, block, G);
+        (void)energies.block_energy(block, G, P);
+        for (int lane = 0; lane < lanes(block); ++lane)
+          for (int e = 0; e < 9; ++e) *to++ = static_cast<float>(P[e / 3][e % 3][lane]);
+      },
+      [](const Cluster&) {});
 }
 
 void TetRows::add_curvatures(const Cluster& cluster, int block, const Tets curvature[9][9],

@@ -25,6 +25,24 @@ struct RowClusters {
   const float* modes = nullptr;  ///< one cluster after the other, rank x dimension
 };
 
+/// The energies of tets by their displacement gradients, a block at a time: one tet in each lane.
+class TetEnergies {
+ public:
+  using Tets = Lanes<kWideLanes>;
+
+  /// Returns the energies of a block's tets, and sets their stresses P by their displacement
+  /// gradients G.
+  virtual Tets block_energy(int block, const Tets G[3][3], Tets P[3][3]) const = 0;
+  /// Sets the Hessians C of a block's tets by their displacement gradients.
+  virtual void block_curvatures(int block, const Tets G[3][3], Tets C[9][9]) const = 0;
+
+ protected:
+  TetEnergies() = default;
+  TetEnergies(const TetEnergies&) = default;
+  TetEnergies& operator=(const TetEnergies&) = default;
+  ~TetEnergies() = default;
+};
+
 /// The linear maps G_e (9 x d) from reduced coordinates to the displacement gradients of few tets,
 /// and their transposes from stresses to reduced forces. One tet per SIMD lane, a block of kWidth
 /// tets at a time. In clusters, G_e is the product of a map from few local coordinates and one that
@@ -67,57 +85,16 @@ class TetRows {
 
   /// The sum of the energies of half 0 or 1 of the active blocks; adds their forces. The halves may
   /// be summed on two threads.
-  /// @param energy  energy(block, G, P) returns the energies of a block's tets, and sets their
-  ///                stresses P by their displacement gradients G
-  template <class Energy>
-  double sum(int half, const Energy& energy) {
-    double value = 0.0;
-    Half& work = halves_[half];
-    visit(
-        work, blocks_of(half),
-        [&](const Cluster& cluster, int block) {
-          Tets G[3][3], P[3][3];
-          gradients(cluster, work, block, G);
-          Tets energies = energy(block, G, P);
-          for (int lane = 0; lane < kWidth; ++lane) value += energies[lane];
-          add_stresses(cluster, work, block, P);
-        },
-        [&](const Cluster& cluster) { add_forces(cluster, work); });
-    return value;
-  }
+  double sum(int half, const TetEnergies& energies);
   /// Writes the sum of all forces (d), of both halves.
   void end(double* gradient) const;
 
   /// Adds the Hessian of half 0 or 1 to the lower triangle of `hessian` (d x d).
-  /// @param curvatures  curvatures(block, G, C) sets the Hessians C of a block's tets by their
-  ///                    displacement gradients G
-  template <class Curvatures>
-  void add_hessian(int half, const Curvatures& curvatures, double* hessian) {
-    Half& work = halves_[half];
-    visit(
-        work, blocks_of(half),
-        [&](const Cluster& cluster, int block) {
-          Tets G[3][3], C[9][9];
-          gradients(cluster, work, block, G);
-          curvatures(block, G, C);
-          add_curvatures(cluster, block, C, local_hessian(cluster, work, hessian));
-        },
-        [&](const Cluster& cluster) { add_local_hessian(cluster, work, hessian); });
-  }
+  void add_hessian(int half, const TetEnergies& energies, double* hessian);
 
-  /// Calls act(block, G) with the displacement gradients of every block, active or not.
-  template <class Act>
-  void for_each_block(const Act& act) {
-    Half& work = halves_[0];
-    visit(
-        work, all_,
-        [&](const Cluster& cluster, int block) {
-          Tets G[3][3];
-          gradients(cluster, work, block, G);
-          act(block, G);
-        },
-        [](const Cluster&) {});
-  }
+  /// Writes the Hessians (tets x 9 x 9) or the stresses (tets x 9) of all tets, active or not.
+  void store_curvatures(const TetEnergies& energies, float* to);
+  void store_stresses(const TetEnergies& energies, float* to);
 
  private:
   /// All tets are in one cluster without modes if their maps are of q itself.
@@ -161,22 +138,14 @@ class TetRows {
     if (cluster) leave(*cluster);
   }
 
-  // Functions that several sums share are not inlined: a page has little room.
-  [[gnu::noinline]] void allocate(Half& half) const;
-  [[gnu::noinline]] void enter(const Cluster& cluster, Half& work) const;
-  [[gnu::noinline]] void gradients(const Cluster& cluster, const Half& work, int block,
-                                   Tets G[3][3]) const;
-  [[gnu::noinline]] void add_stresses(const Cluster& cluster, Half& work, int block,
-                                      const Tets P[3][3]) const;
-  [[gnu::noinline]] void add_forces(const Cluster& cluster, Half& work) const;
-  /// The matrix that a cluster's curvatures are added to.
-  static double* local_hessian(const Cluster& cluster, Half& work, double* hessian) {
-    return cluster.is_local() ? work.hessian.data() : hessian;
-  }
-  [[gnu::noinline]] void add_curvatures(const Cluster& cluster, int block,
-                                        const Tets curvature[9][9], double* hessian) const;
-  [[gnu::noinline]] void add_local_hessian(const Cluster& cluster, Half& work,
-                                           double* hessian) const;
+  void allocate(Half& half) const;
+  void enter(const Cluster& cluster, Half& work) const;
+  void gradients(const Cluster& cluster, const Half& work, int block, Tets G[3][3]) const;
+  void add_stresses(const Cluster& cluster, Half& work, int block, const Tets P[3][3]) const;
+  void add_forces(const Cluster& cluster, Half& work) const;
+  void add_curvatures(const Cluster& cluster, int block, const Tets curvature[9][9],
+                      double* hessian) const;
+  void add_local_hessian(const Cluster& cluster, Half& work, double* hessian) const;
 
   [[nodiscard]] const Tets* words(const Cluster& cluster, int block) const {
     return words_.data() + cluster.words +

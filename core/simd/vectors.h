@@ -17,8 +17,7 @@ inline double dot(const double* a, const double* b, int n) {
 }
 
 /// y += factor * x.
-[[gnu::noinline]] inline void add_scaled(double factor, const double* __restrict x,
-                                         double* __restrict y, int n) {
+inline void add_scaled(double factor, const double* __restrict x, double* __restrict y, int n) {
   for (int i = 0; i < n; ++i) y[i] += factor * x[i];
 }
 
