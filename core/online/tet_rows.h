@@ -139,12 +139,19 @@ class TetRows {
   }
 
   void allocate(Half& half) const;
+  /// Sets the cluster's local coordinates at q, and resets their forces to zero.
   void enter(const Cluster& cluster, Half& work) const;
+  /// Displacement gradients of a block's tets at the local coordinates.
   void gradients(const Cluster& cluster, const Half& work, int block, Tets G[3][3]) const;
+  /// Adds the forces of a block's stresses to those of the local coordinates.
   void add_stresses(const Cluster& cluster, Half& work, int block, const Tets P[3][3]) const;
+  /// Adds the forces of the local coordinates to those of q.
   void add_forces(const Cluster& cluster, Half& work) const;
+  /// Adds a block's part G_e^T curvature G_e to the lower triangle of `hessian`, by the local
+  /// coordinates (rank x rank).
   void add_curvatures(const Cluster& cluster, int block, const Tets curvature[9][9],
                       double* hessian) const;
+  /// Adds the cluster's Hessian by the local coordinates, if they are not q itself, to that by q.
   void add_local_hessian(const Cluster& cluster, Half& work, double* hessian) const;
 
   [[nodiscard]] const Tets* words(const Cluster& cluster, int block) const {

@@ -11,7 +11,11 @@ from numpy.typing import NDArray
 from ..mesh import ShellMesh
 from ..model_file import load
 from ..reduction import (
+    BlendedStars,
+    BlendedSum,
+    Cubature,
     InterpolationModel,
+    LocalRows,
     PosingModel,
     ReducedModel,
     has_stars,
@@ -69,10 +73,18 @@ def energy_text(model: ReducedModel) -> str:
             rings = not model.problem.material.settings.get("radius")
             stars = "vertices with their triangles" if rings else "rigid neighbourhoods"
             what = stars if has_stars(model.problem) else "triangles and hinges"
-        return f"cubature of {len(model.cubature.tets)} {what}"
+        return f"cubature of {len(model.cubature.tets)} {what}{_clusters_text(model.cubature)}"
     if isinstance(model, InterpolationModel):
         return f"exact quartics of {len(model.problem.poses)} poses"
     return "exact quartic"
+
+
+def _clusters_text(energy: Cubature | BlendedSum) -> str:
+    """What its local coordinates are, after its number of tets; empty without them."""
+    if isinstance(energy, BlendedStars) or not isinstance(energy.stored_rows, LocalRows):
+        return ""
+    ranks = energy.stored_rows.sizes[:, 1]
+    return f", in {len(ranks)} clusters with {ranks.mean():.0f} local coordinates each on average"
 
 
 def _decay(energies: NDArray[np.float64] | None, dimension: int) -> str:

@@ -9,10 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from snapspace import load, write_surface, write_tets
+from snapspace import PosingModel, load, write_surface, write_tets
 from snapspace.cli.files import SURFACE_INPUTS, SURFACE_OUTPUTS, TET_INPUTS, TET_OUTPUTS
+from snapspace.cli.model_info import energy_text
 from snapspace.mesh import read, write
 
+from ..clustered import TETS, clustered_model
 from .conftest import Run
 from .files import bar_mesh, write_problem, write_raw
 
@@ -104,3 +106,12 @@ def test_a_surface(run: Run, tmp_path: Path) -> None:
     )
     assert (closed["kind"], closed["faces"]) == ("surface", len(mesh.surface))
     assert (closed["closed"], opened["closed"]) == (True, False)
+
+
+def test_local_coordinates_are_named(cubature_model: PosingModel) -> None:
+    tets = len(cubature_model.cubature.tets)
+    assert energy_text(cubature_model) == f"cubature of {tets} tets"
+    model = clustered_model(cubature_model, 10)
+    clusters = -(-tets // TETS)
+    expected = f"in {clusters} clusters with 10 local coordinates each on average"
+    assert energy_text(model) == f"cubature of {tets} tets, {expected}"
