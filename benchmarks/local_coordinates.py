@@ -25,7 +25,7 @@ import problems
 
 import snapspace as ss
 from snapspace.cubature import BlendedCubature, LocalRows
-from snapspace.validation import solved_reference, unseen_errors
+from snapspace.validation import solution_errors, solved_reference
 
 #: Evaluations of each energy, in turns.
 TURNS, EVALUATIONS = 7, 60
@@ -69,8 +69,11 @@ def compared(name: str, problem: Any, count: int) -> dict[str, Any] | None:
     reference = solved_reference(problem, samples=count)
     models = {"without": dense, "with": local}
     micros = dict(zip(models, evaluation_micros(list(models.values())), strict=True))
-    errors = {key: unseen_errors(model, reference) for key, model in models.items()}
     ends, jumps = zip(*(jumped(model, reference) for model in models.values()), strict=True)
+    errors = {
+        key: solution_errors(model, reference, end)[:, 0]
+        for (key, model), end in zip(models.items(), ends, strict=True)
+    }
     sizes = energy.stored_rows.sizes
     apart = np.linalg.norm(ends[1] - ends[0], axis=1) / np.linalg.norm(ends[0], axis=1)
     return {

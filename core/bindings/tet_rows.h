@@ -33,7 +33,7 @@ class TetRows {
     for (std::size_t c = 0; c < sizes.shape(0); ++c) {
       const int own = sizes(c, 0), rank = sizes(c, 1);
       require(own >= 1 && rank >= 1, "clusters must have tets and local coordinates");
-      require(own % live::ClusterArrays::kTets == 0 || c + 1 == sizes.shape(0),
+      require(own % online::RowClusters::kTets == 0 || c + 1 == sizes.shape(0),
               "only the last cluster may have a number of tets that is no multiple of 8");
       ranks += static_cast<std::size_t>(rank);
       tets += static_cast<std::size_t>(own);

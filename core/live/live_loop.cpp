@@ -122,20 +122,16 @@ online::Storage storage(bool single) {
   return single ? online::Storage::single_precision : online::Storage::double_precision;
 }
 
-online::RowClusters clusters_of(const RowArrays& rows) {
-  return {rows.clusters.count, rows.clusters.sizes, rows.clusters.modes};
-}
-
 Cubature make_cubature(const CubatureArrays& arrays) {
   const RowArrays& rows = arrays.rows;
-  return {rows.dimension, rows.tets, rows.rows, arrays.weights, arrays.material, clusters_of(rows)};
+  return {rows.dimension, rows.tets, rows.rows, arrays.weights, arrays.material, rows.clusters};
 }
 
 BlendedCubature make_cubature(const CubatureArrays& arrays, const PoseArrays& poses) {
   const RowArrays& rows = arrays.rows;
-  return {rows.dimension,   rows.tets,       rows.rows,
-          arrays.weights,   arrays.material, {poses.poses, poses.corners, poses.tau},
-          clusters_of(rows)};
+  return {rows.dimension, rows.tets,       rows.rows,
+          arrays.weights, arrays.material, {poses.poses, poses.corners, poses.tau},
+          rows.clusters};
 }
 
 BlendedStars make_stars(const StarArrays& arrays) {

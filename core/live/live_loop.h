@@ -5,6 +5,7 @@
 
 #include "material/tet_material.h"
 #include "online/minimizer.h"
+#include "online/row_clusters.h"
 
 /// The reduced energies and live loops of core/online. Their layouts depend on the width of packs;
 /// these interfaces do not, so code that uses them need not be compiled for every level.
@@ -54,19 +55,11 @@ class LiveSolver : public ReducedFunction {
   virtual void set_inputs(const double* inputs) = 0;
 };
 
-/// Clusters of tets with local coordinates, if count > 0; see online::RowClusters.
-struct ClusterArrays {
-  static constexpr int kTets = 8;
-  int count = 0;
-  const int* sizes = nullptr;
-  const float* modes = nullptr;
-};
-
 /// Displacement gradients of tets; see online::TetRows.
 struct RowArrays {
   int dimension, tets;
   const float* rows;
-  ClusterArrays clusters;
+  online::RowClusters clusters;
 };
 
 /// The arrays of a cubature; see online::Cubature.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "online/local_modes.h"
+#include "online/row_clusters.h"
 #include "simd/lanes.h"
 #include "simd/number_pairs.h"
 
@@ -13,17 +14,6 @@ namespace snapspace::online {
 /// Evaluations that read at least this many numbers are worth two threads: about 10 microseconds on
 /// one.
 constexpr std::size_t kMinSharedSize = std::size_t{1} << 16;
-
-/// Clusters of tets, each with its own few coordinates y = modes q, which its displacement
-/// gradients are linear in. Tets of a cluster follow each other.
-struct RowClusters {
-  /// Numbers of tets are multiples of this, except that of the last cluster.
-  static constexpr int kTets = 8;
-
-  int count = 0;                 ///< 0 if displacement gradients are linear maps of q itself
-  const int* sizes = nullptr;    ///< count x 2: numbers of tets and of local coordinates (rank)
-  const float* modes = nullptr;  ///< one cluster after the other, rank x dimension
-};
 
 /// The energies of tets by their displacement gradients, a block at a time: one tet in each lane.
 class TetEnergies {

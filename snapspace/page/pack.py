@@ -12,6 +12,7 @@ from ..disk.safetensors_bytes import safetensors_bytes
 from ..mesh import EmbeddedSurface
 from ..model_file.appearance import appearance_arrays
 from ..model_file.container import Arrays
+from ..model_file.local_rows import local_arrays
 from ..reduction import (
     BlendedCubature,
     BlendedStars,
@@ -20,7 +21,6 @@ from ..reduction import (
     FullBlends,
     FullEnergy,
     InterpolationModel,
-    LocalRows,
     PoseQuartics,
     PosingModel,
     Quartic,
@@ -199,14 +199,7 @@ def _elastic_arrays(elastic: Quartic | Cubature | FullEnergy) -> Arrays:
 
 def _row_arrays(energy: Cubature | BlendedCubature) -> Arrays:
     """Rows of all coordinates, or what makes them, cluster by cluster."""
-    rows = energy.stored_rows
-    if not isinstance(rows, LocalRows):
-        return {"cubature_rows": rows}
-    return {
-        "cubature_clusters": rows.sizes,
-        "cubature_local_rows": rows.rows,
-        "cubature_local_modes": rows.modes,
-    }
+    return local_arrays(energy) or {"cubature_rows": energy.rows}
 
 
 def _interpolation_arrays(model: InterpolationModel) -> Arrays:
