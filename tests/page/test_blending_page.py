@@ -15,8 +15,8 @@ from .pages import OpenPage, Page
 def assert_shown(model: InterpolationModel, page: Page) -> None:
     """Both shapes are those of the weights that the page has."""
     shown, straight = page.shown(), page.shown("straight")
-    weights = np.array(page.run("snapspace.session.weights"))
-    weights /= weights.sum()
+    weights = page.numbers("snapspace.session.weights")
+    weights = weights / weights.sum()
     session = model.session()
     session.blend(weights)
     close = 1e-4 * model.problem.mesh.diagonal
@@ -59,6 +59,7 @@ def test_sliders_and_polygon_blend(
     page.page.locator(".corner").nth(2).click()
     page.settle()
     assert page.run("snapspace.session.weights") == [0, 0, 1]
+    assert_shown(blending_model, page)
 
 
 def test_surfaces_blend_also_from_files_that_are_dropped(tmp_path: Path, opened: OpenPage) -> None:

@@ -106,7 +106,7 @@ def test_a_square_moves_across_its_axis(moving: Page, axis: int) -> None:
 def test_a_ring_turns_about_its_axis(turning: Page, axis: int) -> None:
     page = turning
     unit = np.eye(3)[axis]
-    to_camera = np.array(page.run(TO_CAMERA))
+    to_camera = page.numbers(TO_CAMERA)
     front = to_camera - (to_camera @ unit) * unit
     held = ON_RING * front / np.linalg.norm(front)
     along = np.cross(unit, held)
@@ -120,7 +120,7 @@ def test_a_ring_turns_about_its_axis(turning: Page, axis: int) -> None:
 
 def test_the_outer_ring_turns_about_the_view(turning: Page) -> None:
     page = turning
-    to_camera = np.array(page.run(TO_CAMERA))
+    to_camera = page.numbers(TO_CAMERA)
     right = np.cross(to_camera, to_camera[[1, 2, 0]])
     right *= ON_VIEW_RING / np.linalg.norm(right)
     start, end = in_window(page, right, np.cross(to_camera, right))
