@@ -54,6 +54,7 @@ class Bfgs {
   void advance();
 
   int d_ = 0;
+  HalfRunner* runner_ = nullptr;
   std::vector<double> inverse_, gradient_, direction_, trial_, trial_gradient_, change_, product_;
   // The last update is done with the next product. It adds to entry (i, j) of the inverse
   // weight * s_i s_j - rho * (s_i p_j + p_i s_j).
@@ -67,6 +68,7 @@ class Bfgs {
 inline Report Bfgs::minimize(Objective& objective, int d, double* q, const double* fallback,
                              const Termination& stop) {
   d_ = d;
+  runner_ = objective.half_runner();
   Report report{Status::max_iterations, 0, 1, 0.0, 0.0};
   report.value = objective.value_and_gradient(q, gradient_.data());
   report.gradient_norm = std::sqrt(dot(gradient_.data(), gradient_.data(), d_));
@@ -169,16 +171,19 @@ inline bool Bfgs::line_search(Objective& objective, const double* q, Report& rep
 
 /// product_ = inverse * gradient, after the pending update.
 inline void Bfgs::multiply(const double* gradient) {
-  for (int i = 0; i < d_; ++i) {
-    double* row = inverse_.data() + static_cast<std::size_t>(i) * d_;
-    if (pending_) {
-      const double s = update_step_[i], p = update_product_[i];
-      const double of_step = weight_ * s - rho_ * p, of_product = -rho_ * s;
-      for (int j = 0; j < d_; ++j)
-        row[j] += of_step * update_step_[j] + of_product * update_product_[j];
+  const std::size_t d = d_;
+  run_halves(runner_, d * d, [&](int half) {
+    for (int i = half * d_ / 2; i < (half + 1) * d_ / 2; ++i) {
+      double* row = inverse_.data() + i * d;
+      if (pending_) {
+        const double s = update_step_[i], p = update_product_[i];
+        const double of_step = weight_ * s - rho_ * p, of_product = -rho_ * s;
+        for (int j = 0; j < d_; ++j)
+          row[j] += of_step * update_step_[j] + of_product * update_product_[j];
+      }
+      product_[i] = dot(row, gradient, d_);
     }
-    product_[i] = dot(row, gradient, d_);
-  }
+  });
   pending_ = false;
 }
 

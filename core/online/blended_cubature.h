@@ -43,6 +43,7 @@ class BlendedCubature final : public TetEnergies {
 
   /// Sets the runner of large evaluations; null for this thread alone. Results are the same.
   void set_half_runner(HalfRunner* runner) { half_runner_ = runner; }
+  [[nodiscard]] HalfRunner* half_runner() const { return half_runner_; }
 
   /// Value at q (d); `gradient` (d) is overwritten.
   double value_and_gradient(const double* q, double* gradient);

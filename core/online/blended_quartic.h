@@ -11,6 +11,7 @@ namespace snapspace::online {
 class BlendedQuartic {
  public:
   static constexpr bool kHessianIsExpensive = Quartic::kHessianIsExpensive;
+  [[nodiscard]] static HalfRunner* half_runner() { return Quartic::half_runner(); }
 
   /// Keeps a pointer to the coefficients, poses x quartic_count(dimension + 1). The weights are
   /// initially zero.

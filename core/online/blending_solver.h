@@ -54,6 +54,8 @@ class BlendingSolver final : public Objective {
     return elastic_.derivatives(q, gradient, hessian);
   }
 
+  [[nodiscard]] HalfRunner* half_runner() const override { return elastic_.half_runner(); }
+
   /// Solves from q, in place. If q is the last frame of a drag, the solve starts where the drag is
   /// extrapolated to.
   Report solve(double* q, Method method, const Termination& stop) {

@@ -14,8 +14,7 @@ inline double block_sum(TetRows& rows, HalfRunner* runner, const double* q,
                         const TetEnergies& energies, double* gradient) {
   rows.begin(q);
   double values[2] = {0.0, 0.0};
-  run_halves(rows.size() < kMinSharedSize ? nullptr : runner,
-             [&](int half) { values[half] = rows.sum(half, energies); });
+  run_halves(runner, rows.size(), [&](int half) { values[half] = rows.sum(half, energies); });
   rows.end(gradient);
   return values[0] + values[1];
 }

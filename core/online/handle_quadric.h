@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "online/half_runner.h"
 #include "simd/vectors.h"
 
 namespace snapspace::online {
@@ -50,15 +51,19 @@ class HandleQuadric {
   /// Minus half the gradient at q = 0, for all coordinates: linear in the offsets.
   [[nodiscard]] const double* pull() const { return linear_.data(); }
 
-  /// Energy at q; its gradient is added to `gradient` (d).
-  double add_value_and_gradient(const double* q, double* gradient) const {
-    double value = constant_;
-    for (int i = 0; i < d_; ++i) {
-      const double Kq = dot(K_.data() + size(i, capacity_), q, d_);
-      value += q[i] * (Kq - 2.0 * linear_[i]);
-      gradient[i] += 2.0 * (Kq - linear_[i]);
-    }
-    return value;
+  /// Energy at q; its gradient is added to `gradient` (d). Results are the same without a runner.
+  double add_value_and_gradient(HalfRunner* runner, const double* q, double* gradient) const {
+    double values[2];
+    run_halves(runner, size(d_, d_), [&](int half) {
+      double value = 0.0;
+      for (int i = half * d_ / 2; i < (half + 1) * d_ / 2; ++i) {
+        const double Kq = dot(K_.data() + size(i, capacity_), q, d_);
+        value += q[i] * (Kq - 2.0 * linear_[i]);
+        gradient[i] += 2.0 * (Kq - linear_[i]);
+      }
+      values[half] = value;
+    });
+    return constant_ + values[0] + values[1];
   }
 
   /// Adds the constant Hessian 2 K to the lower triangle of `hessian` (d x d).

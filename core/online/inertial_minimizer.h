@@ -80,6 +80,7 @@ class InertialMinimizer {
       for (int i = 0; i < d_; ++i) hessian[static_cast<std::size_t>(i) * (d_ + 1)] += weight_;
       return value + inertia(q);
     }
+    [[nodiscard]] HalfRunner* half_runner() const override { return objective_.half_runner(); }
 
    private:
     void add_pull(const double* q, double* gradient) const {

@@ -1,4 +1,5 @@
 #pragma once
+#include "online/half_runner.h"
 
 namespace snapspace::online {
 
@@ -10,6 +11,8 @@ class Objective {
   virtual double value_and_gradient(const double* q, double* gradient) = 0;
   /// Also writes the lower triangle of the Hessian (d x d).
   virtual double derivatives(const double* q, double* gradient, double* hessian) = 0;
+  /// Runs halves of large evaluations and of what minimisers add to them; may be null.
+  [[nodiscard]] virtual HalfRunner* half_runner() const { return nullptr; }
 
  protected:
   Objective() = default;

@@ -42,15 +42,17 @@ class PosingSolver final : public Objective {
 
   double value_and_gradient(const double* q, double* gradient) override {
     const double elastic = elastic_.value_and_gradient(q, gradient);
-    return elastic + handles_.add_value_and_gradient(q, gradient);
+    return elastic + handles_.add_value_and_gradient(half_runner(), q, gradient);
   }
 
   /// Also writes the lower triangle of the Hessian.
   double derivatives(const double* q, double* gradient, double* hessian) override {
     const double elastic = elastic_.derivatives(q, gradient, hessian);
     handles_.add_hessian(hessian);
-    return elastic + handles_.add_value_and_gradient(q, gradient);
+    return elastic + handles_.add_value_and_gradient(half_runner(), q, gradient);
   }
+
+  [[nodiscard]] HalfRunner* half_runner() const override { return elastic_.half_runner(); }
 
   /// Solves from q, in place. If q is the last frame of a drag, the solve starts where the drag is
   /// extrapolated to. The handles' pull is the input of a drag: it has the motions of all handles

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "online/aligned_array.h"
+#include "online/half_runner.h"
 #include "online/packed_layout.h"
 #include "online/quartic_tiles.h"
 #include "online/symmetric_form.h"
@@ -29,6 +30,8 @@ class Quartic {
  public:
   /// Whether a Hessian costs much more than a gradient.
   static constexpr bool kHessianIsExpensive = false;
+  /// None: an evaluation takes one thread.
+  [[nodiscard]] static HalfRunner* half_runner() { return nullptr; }
 
   /// All coefficients are zero until they are set. Allocates all memory.
   explicit Quartic(int dimension, Storage storage = Storage::double_precision);

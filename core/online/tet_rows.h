@@ -11,10 +11,6 @@
 
 namespace snapspace::online {
 
-/// Evaluations that read at least this many numbers are worth two threads: about 10 microseconds on
-/// one.
-constexpr std::size_t kMinSharedSize = std::size_t{1} << 16;
-
 /// The energies of tets by their displacement gradients, a block at a time: one tet in each lane.
 class TetEnergies {
  public:
