@@ -30,7 +30,7 @@ class FrameMinimizer {
                   const Termination& stop) {
     if (drag_.ends_at(d_, q))
       drag_.extrapolate(d_, inputs, q);
-    else
+    else if (hessian_is_expensive_)  // otherwise each BFGS starts from that Hessian anyway
       minimizers_.forget();
     const Report report = hessian_is_expensive_ && method == Method::bfgs
                               ? minimizers_.continue_bfgs(objective, q, stop)

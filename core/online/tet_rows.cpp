@@ -27,6 +27,14 @@ void fill_words(int tets, int rank, const float* rows, const NumberWords& word,
       }
 }
 
+/// Writes some entries of each lane, lane after lane; returns the place after them.
+template <int Count>
+float* store_lanes(int lanes, const TetRows::Tets* entries, float* to) {
+  for (int lane = 0; lane < lanes; ++lane)
+    for (int e = 0; e < Count; ++e) *to++ = static_cast<float>(entries[e][lane]);
+  return to;
+}
+
 }  // namespace
 
 TetRows::TetRows(int dimension, int tets, const float* rows, const RowClusters& clusters)
@@ -205,32 +213,33 @@ void TetRows::add_hessian(int half, const TetEnergies& energies, double* hessian
       [&](const Cluster& cluster) { add_local_hessian(cluster, work, hessian); });
 }
 
-void TetRows::store_curvatures(const TetEnergies& energies, float* to) {
+template <class Use>
+void TetRows::with_gradients(Use use) {
   Half& work = halves_[0];
   visit(
       work, all_,
       [&](const Cluster& cluster, int block) {
-        Tets G[3][3], C[9][9];
+        Tets G[3][3];
         gradients(cluster, work, block, G);
-        energies.block_curvatures(block, G, C);
-        for (int lane = 0; lane < lanes(block); ++lane)
-          for (int e = 0; e < 81; ++e) *to++ = static_cast<float>(C[e / 9][e % 9][lane]);
+        use(block, G);
       },
       [](const Cluster&) {});
 }
 
+void TetRows::store_curvatures(const TetEnergies& energies, float* to) {
+  with_gradients([&](int block, const Tets G[3][3]) {
+    Tets C[9][9];
+    energies.block_curvatures(block, G, C);
+    to = store_lanes<81>(lanes(block), &C[0][0], to);
+  });
+}
+
 void TetRows::store_stresses(const TetEnergies& energies, float* to) {
-  Half& work = halves_[0];
-  visit(
-      work, all_,
-      [&](const Cluster& cluster, int block) {
-        Tets G[3][3], P[3][3];
-        gradients(cluster, work, block, G);
-        (void)energies.block_energy(block, G, P);
-        for (int lane = 0; lane < lanes(block); ++lane)
-          for (int e = 0; e < 9; ++e) *to++ = static_cast<float>(P[e / 3][e % 3][lane]);
-      },
-      [](const Cluster&) {});
+  with_gradients([&](int block, const Tets G[3][3]) {
+    Tets P[3][3];
+    (void)energies.block_energy(block, G, P);
+    to = store_lanes<9>(lanes(block), &P[0][0], to);
+  });
 }
 
 void TetRows::add_curvatures(const Cluster& cluster, int block, const Tets curvature[9][9],

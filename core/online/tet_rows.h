@@ -124,6 +124,10 @@ class TetRows {
     if (cluster) leave(*cluster);
   }
 
+  /// Calls use(block, G) for all blocks, active or not, with their tets' displacement gradients.
+  template <class Use>
+  void with_gradients(Use use);
+
   void allocate(Half& half) const;
   /// Sets the cluster's local coordinates at q, and resets their forces to zero.
   void enter(const Cluster& cluster, Half& work) const;
