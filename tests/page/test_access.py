@@ -22,6 +22,25 @@ OVERFLOWING = """[...document.querySelectorAll("#panel, #panel section *")].filt
     && !["hidden", "clip"].includes(getComputedStyle(e).overflowX)
     && getComputedStyle(e).display !== "inline" && !["INPUT", "SELECT"].includes(e.tagName)
 ).map((e) => `${e.outerHTML.slice(0, 90)} ${e.scrollWidth} > ${e.clientWidth}`)"""
+#: Fields that do not show their longest text: a number of four decimals, words of a drop-down.
+CUT = """(() => {
+  const numbers = [...document.querySelectorAll(".motion-fields input")].filter((field) => {
+    field.value = "-0.0123";
+    return field.scrollWidth > field.clientWidth;
+  });
+  const lists = [...document.querySelectorAll("#panel select")].filter((list) => {
+    const { width } = list.getBoundingClientRect();
+    list.style.flex = "none";
+    return list.getBoundingClientRect().width > width + 0.5;
+  });
+  return [...numbers, ...lists].map((field) => field.getAttribute("aria-label"));
+})()"""
+FRAMED = """(field) => {
+  const left = (element) => element.getBoundingClientRect().left;
+  const style = getComputedStyle(field);
+  const [width, offset] = [style.outlineWidth, style.outlineOffset].map(parseFloat);
+  return width > 0 && width + offset <= left(field) - left(field.parentElement);
+}"""
 
 PHONE: dict[str, Any] = {"size": (390, 844), "has_touch": True, "is_mobile": True}
 LONG = "the_left_hand_of_the_creature_that_waves_to_everybody"
@@ -69,6 +88,18 @@ def test_controls_are_large_enough_for_fingers(
     page = tabs.open(many_poses_page.as_uri(), **PHONE)
     assert page.run(SMALL) == []
     tabs.close(page)
+
+
+def test_texts_fit_their_fields(posing_page: Path, opened: OpenPage) -> None:
+    page = opened(posing_page.as_uri(), size=(1280, 800))
+    for key in "2k":
+        page.page.keyboard.press(key)
+    assert page.run(CUT) == []
+    page.run("(navigator.clipboard.writeText = () => Promise.reject(Error()), null)")
+    press(page, "Copy link")
+    field = page.page.get_by_label("The address of this pose")
+    field.wait_for()
+    assert field.evaluate(FRAMED), "the paragraph cuts no side of the frame"
 
 
 def test_forced_colours_and_long_names(bar_server: str, opened: OpenPage) -> None:
