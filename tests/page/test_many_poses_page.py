@@ -111,9 +111,12 @@ def test_weights_are_typed_and_poses_taken_away(
     assert np.allclose(
         weights_of(page), sparse(many_poses_model, rest=0.5, arc_01=0.25, arc_02=0.25)
     )
-    page.page.get_by_role("spinbutton", name="Weight of rest").fill("150")
-    page.page.keyboard.press("Enter")
-    assert weights_of(page)[0] == 0.5, "no weight is above 100 %"
+    weight = page.page.get_by_role("spinbutton", name="Weight of rest")
+    for wrong in ("150", "-20", ""):
+        weight.fill(wrong)
+        page.page.keyboard.press("Tab")
+        assert weights_of(page)[0] == 0.5, "a weight is from 0 to 100 %"
+        assert weight.input_value() == "50", "a number that is refused does not stay"
     take = page.page.get_by_role("button", name="Take arc-02 away")
     take.focus()
     page.page.keyboard.press("Enter")

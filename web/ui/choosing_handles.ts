@@ -202,7 +202,7 @@ export class HandleList {
     const diagonal = this.#choosing.mesh.diagonal;
     const fields = h(
       "div",
-      { hidden: !this.#unfolded.has(key) },
+      { id: `ranges-${key}`, hidden: !this.#unfolded.has(key) },
       rangeFields(shareOf(diagonal), handle.translation ?? common.translation, (translation) =>
         set({ translation }),
       ),
@@ -214,6 +214,7 @@ export class HandleList {
         type: "button",
         className: "link",
         "aria-expanded": !fields.hidden,
+        "aria-controls": fields.id,
         "data-focus": `range-${key}`,
         onclick: () => {
           fields.hidden = !fields.hidden;

@@ -95,6 +95,8 @@ export class ComputePanel {
     const wrong = this.element.parentElement?.querySelector<HTMLInputElement>("input:invalid");
     const folded = wrong?.closest("details");
     if (folded) folded.open = true;
+    const hidden = wrong?.closest("[hidden]");
+    if (hidden) document.querySelector<HTMLElement>(`[aria-controls="${hidden.id}"]`)?.click();
     return wrong?.reportValidity() ?? true;
   }
 

@@ -65,7 +65,8 @@ function weightRow(weigh: (weight: number) => void, remove: () => void) {
   number.addEventListener("input", () => (isTyped = true));
   number.addEventListener("change", () => {
     isTyped = false;
-    if (number.reportValidity()) weigh(number.valueAsNumber / 100);
+    if (number.validity.valid) weigh(number.valueAsNumber / 100);
+    else showNumber();
   });
   number.addEventListener("blur", () => (isTyped = false));
   const element = h(
@@ -84,6 +85,8 @@ function weightRow(weigh: (weight: number) => void, remove: () => void) {
     mark(number, "min", Math.round(100 * own[0]));
     mark(number, "max", Math.round(100 * own[1]));
   };
+  let shown = 0;
+  const showNumber = () => (number.value = String(Math.round(1000 * shown) / 10));
   const show = (pose: string, address: string | undefined, weight: number) => {
     if (name.textContent !== pose) {
       name.textContent = name.title = pose;
@@ -95,7 +98,8 @@ function weightRow(weigh: (weight: number) => void, remove: () => void) {
     if (address && picture.getAttribute("src") !== address) picture.src = address;
     picture.style.visibility = address ? "" : "hidden";
     input.value = String(weight);
-    if (!isTyped) number.value = String(Math.round(1000 * weight) / 10);
+    shown = weight;
+    if (!isTyped) showNumber();
   };
   return { element, input, remove: button, extend, show };
 }
