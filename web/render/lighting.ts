@@ -1,7 +1,14 @@
 /** GLSL of fragments: light of the studio, and colours of the screen.
  *
  * `lit` is what a matt body with a coat of refractive index 1.5 reflects: Lambert's diffuse part, and the specular part of
- * Trowbridge and Reitz (GGX) with Smith's masking (Heitz 2014) and Schlick's Fresnel factor, as glTF 2.0 has them. */
+ * Trowbridge and Reitz (GGX) with Smith's masking (Heitz 2014) and Schlick's Fresnel factor, as glTF 2.0 has them. There are
+ * no glints where normals bend within a pixel. `open` is the share of light from all sides that creases leave. The key lights
+ * stand for areas, which creases see less of as well; the square is a matter of taste.
+ * `unshadowed` is the share of the key light that arrives: the mean of nine places, each of four texels.
+ * `fromAllSides` is the light from the studio's panels, by spherical harmonics.
+ * `coatOfEven` is what the coat reflects of even light (Karis 2014, on mobile), and COAT what it reflects at a right angle.
+ *
+ * The comments are here, because those in GLSL would be sent with every page. */
 export const LIGHTING = `
 uniform vec3 eye;
 uniform vec3 lightDirections[2];
@@ -10,9 +17,8 @@ uniform vec3 irradiance[9];
 uniform sampler2DShadow shadowMap;
 uniform mat4 shadowMatrix;
 const float PI = 3.141592653589793;
-const float COAT = 0.04; // reflected at a right angle
+const float COAT = 0.04;
 
-/** The share of the key light that arrives: the mean of nine places, each of four texels. */
 float unshadowed(vec3 place, vec3 normal) {
   vec3 at = (shadowMatrix * vec4(place + 0.02 * normal, 1.0)).xyz;
   if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return 1.0;
@@ -23,14 +29,12 @@ float unshadowed(vec3 place, vec3 normal) {
   return sum / 9.0;
 }
 
-/** From the studio's panels, by spherical harmonics. */
 vec3 fromAllSides(vec3 n) {
   return irradiance[0] + irradiance[1] * n.y + irradiance[2] * n.z + irradiance[3] * n.x +
     irradiance[4] * n.x * n.y + irradiance[5] * n.y * n.z + irradiance[6] * (3.0 * n.z * n.z - 1.0) +
     irradiance[7] * n.x * n.z + irradiance[8] * (n.x * n.x - n.y * n.y);
 }
 
-/** What the coat reflects of even light (Karis 2014, on mobile). */
 float coatOfEven(float roughness, float facing) {
   vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
   float a = min(r.x * r.x, exp2(-9.28 * facing)) * r.x + r.y;
@@ -38,11 +42,9 @@ float coatOfEven(float roughness, float facing) {
   return COAT * scaled.x + scaled.y;
 }
 
-/** \`open\` is the share of light from all sides that creases leave. The key lights stand for areas, which creases see less of
- * as well; the square is a matter of taste. */
 vec3 lit(vec3 diffuse, float roughness, vec3 n, vec3 place, bool isShadowed, float open) {
   vec3 v = normalize(eye - place);
-  vec3 bent = max(abs(dFdx(n)), abs(dFdy(n))); // curved within a pixel: no glints
+  vec3 bent = max(abs(dFdx(n)), abs(dFdy(n)));
   float rough = min(max(roughness, 0.05) + max(max(bent.x, bent.y), bent.z), 1.0);
   float a2 = pow(rough, 4.0), nv = clamp(dot(n, v), 0.0, 1.0);
   vec3 sum = open * open * diffuse / PI * fromAllSides(n) * (1.0 - coatOfEven(rough, nv));

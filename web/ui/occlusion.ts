@@ -12,7 +12,8 @@ const PRODUCT = 1 << 23;
 /** Vertices that a patch is computed from. */
 const SOME = 64;
 
-/** In the first row the middles of patches, in the second one their areas times their normals. */
+/** In the first row the middles of patches, in the second one their areas times their normals. The normals of vertices are
+ * twice the areas of their faces, each of which has three corners. */
 const PATCHES = `
 uniform sampler2D positions;
 uniform sampler2D normals;
@@ -33,12 +34,12 @@ void main() {
     area += normal;
     sum += length(normal);
   }
-  // normals are twice the areas of faces, which have three corners
   result = vec4(gl_FragCoord.y < 1.0 ? middle / sum : area * float(step) / 6.0, 1.0);
 }`;
 
 /** The light that patches leave to vertices. A patch hides as much as a disk (Bunnell 2005); behind several disks it is darker
- * than behind one, but never black. How dark is a matter of taste. */
+ * than behind one, but never black. How dark is a matter of taste. The place that is lit is half an edge above the vertex: in a
+ * crease a vertex is in the planes of both sides. */
 const LIGHT = `
 uniform sampler2D positions;
 uniform sampler2D normals;
@@ -49,7 +50,7 @@ void main() {
   vec3 place = texelFetch(positions, at, 0).xyz, normal = texelFetch(normals, at, 0).xyz;
   float size = max(length(normal), 1e-30);
   normal /= size;
-  place += 0.2 * sqrt(size) * normal; // half an edge above: in a crease a vertex is in the planes of both sides
+  place += 0.2 * sqrt(size) * normal;
   int count = textureSize(patches, 0).x;
   float hidden = 0.0;
   for (int k = 0; k < count; k++) {

@@ -26,6 +26,7 @@ export type SurfaceUniforms = {
  * texture. EDGES is moved before the faces. */
 export type Part = "COLORS" | "RAMPS" | "POINTS" | "CREASED" | "PICTURE" | "EDGES";
 
+/** The model's matrix is a motion and a scale, so that normals turn as places do. */
 const VERTEX = `
 uniform mat4 model, view, projection;
 uniform sampler2D shownPositions, shownNormals, shownStrains, shownOcclusion;
@@ -80,7 +81,7 @@ void main() {
   ivec2 cell = cellOf(ownVertex);
   vec3 own = placeOf(ownVertex), sum = normalOf(own);
   place = (model * vec4(own, 1.0)).xyz;
-  normal = mat3(model) * (sum / max(length(sum), 1e-30)); // the model's matrix is a motion and a scale
+  normal = mat3(model) * (sum / max(length(sum), 1e-30));
   open = isOccluded ? texelFetch(shownOcclusion, cell, 0).x : 1.0;
   tint = color;
 #ifdef COLORS
