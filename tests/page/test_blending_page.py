@@ -65,6 +65,7 @@ def test_sliders_and_polygon_blend(
 def test_surfaces_blend_also_from_files_that_are_dropped(tmp_path: Path, opened: OpenPage) -> None:
     rigid, hinged = blended_strips(), blended_strips(StableNeoHookean())
     page = opened(export_html(rigid, tmp_path / "strips.html").as_uri())
+    addresses = []
     for name, model in (("page", rigid), ("rigid", rigid), ("hinged", hinged)):
         if name != "page":
             file = model.save(tmp_path / f"{name}.snapspace")
@@ -72,10 +73,13 @@ def test_surfaces_blend_also_from_files_that_are_dropped(tmp_path: Path, opened:
             page.wait(f"document.title.includes({name!r})")
         page.rest()
         assert_shown(model, page)
-        for slider, weight in ((0, "0.1"), (1, "0.6")):
+        for slider, weight in ((0, "0.1"), (1, "0.6" if name == "page" else "0.7")):
             page.page.get_by_role("slider", name=model.problem.poses.names[slider]).fill(weight)
             page.rest()
             assert_shown(model, page)
+        page.page.wait_for_timeout(300)  # the address is written after a pause
+        addresses.append(page.page.url)
+    assert addresses[1:] == addresses[:1] * 2 != [], "the address is of the page's own model"
 
 
 def test_a_path_plays_beside_the_straight_blend(

@@ -18,6 +18,7 @@ from .choosing_page import (
     press,
     selected,
     stroke,
+    take_ends,
     tool,
 )
 from .pages import OpenPage, Page, Tabs
@@ -41,6 +42,16 @@ NOTHING_CHOSEN = """(() => {
   document.getElementById("frame").click();
   const { left, top, width, height } = document.querySelector("canvas").getBoundingClientRect();
   return [left + width / 2, top + height / 2];
+})()"""
+
+
+#: Ends of the axes that the floating button covers.
+OVERLAPPING = """(() => {
+  const button = document.querySelector("button.floating").getBoundingClientRect();
+  return [...document.querySelectorAll(".axis-widget circle")].filter((end) => {
+    const { right, bottom } = end.getBoundingClientRect();
+    return right > button.left && bottom > button.top;
+  }).map((end) => end.parentElement.getAttribute("aria-label"));
 })()"""
 
 
@@ -121,6 +132,33 @@ def test_keys_paint_without_a_pointer(page: Page) -> None:
     assert page.run("snapspace.choosing.tool") == "box"
 
 
+def test_a_drop_down_keeps_its_keys(page: Page) -> None:
+    page.page.locator("canvas").focus()
+    page.page.keyboard.press(" ")
+    assert selected(page)
+    material = page.page.get_by_label("Material", exact=True)
+    material.focus()
+    before = material.input_value()
+    for key in ("x", "Enter", "Escape"):
+        page.page.keyboard.press(key)
+    assert not handles(page), "Enter opens the list"
+    assert page.run("snapspace.choosing.tool") == "brush" and material.input_value() == before
+    assert "brush" in page.page.locator("canvas").get_attribute("aria-label")
+
+
+def test_compute_unfolds_the_range_that_is_wrong(page: Page) -> None:
+    take_ends(page)
+    travel = page.page.get_by_label("Travel, plus or minus").first
+    press(page, "Range")
+    travel.fill("")
+    press(page, "Range")
+    assert not travel.is_visible()
+    press(page, "Compute")
+    assert travel.is_visible() and travel.evaluate("(e) => e === document.activeElement")
+    travel.fill("10")
+    press(page, "Range")
+
+
 def test_the_right_button_and_a_drag_beside_the_body_look_around(page: Page) -> None:
     camera = "snapspace.stage.camera.position.toArray()"
     before = page.run(camera)
@@ -183,6 +221,8 @@ def test_one_finger_paints_and_two_look_around(bar_server: str, opened: OpenPage
     send("touchEnd")
     assert page.run(camera) != before
     assert selected(page) == painted, "the stroke of the first finger is forgotten"
+    page.run("document.querySelector('button.floating').textContent += ', and 10,000 more'")
+    assert page.run(OVERLAPPING) == [], "the button is beside the axes"
     page.page.locator("button.floating").tap()
     assert handles(page) == {"handle 1": painted}
     assert page.run("document.documentElement.dataset.theme") == "dark"

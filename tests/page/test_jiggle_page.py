@@ -8,6 +8,7 @@ import numpy as np
 
 from snapspace import InterpolationModel, PosingModel
 
+from .choosing_page import tool
 from .pages import OpenPage, Page
 from .test_posing_page import assert_shown
 
@@ -57,6 +58,10 @@ def test_gravity_bends_the_body_until_jiggle_is_off(
     down = (posing.shown() - rest)[:, 2]  # z is up
     diagonal = posing_model.problem.mesh.diagonal
     assert down.min() < -1e-3 * diagonal and down.mean() < 0.0
+    tool(posing, "y up")
+    posing.rest()
+    down = (posing.shown() - rest).mean(axis=0)
+    assert down[1] < -1e-4 * diagonal and abs(down[2]) < abs(down[1]), "it pulls down again"
     gravity.fill("0")
     posing.page.keyboard.press("j")
     posing.settle()

@@ -36,6 +36,13 @@ from .test_workspace_page import RECORDING, recorded
 
 NAMES = "snapspace.session.model.handles.map(({ name }) => name)"
 
+#: Lets the page believe that its connection is lost. The console must stay empty.
+DISCONNECTED = """(() => {
+  window.readyState = Object.getOwnPropertyDescriptor(WebSocket.prototype, "readyState");
+  Object.defineProperty(WebSocket.prototype, "readyState", { configurable: true, get: () => 3 });
+})()"""
+CONNECTED = "Object.defineProperty(WebSocket.prototype, 'readyState', window.readyState); null"
+
 
 def full_solution(page: Page, problem: PosingProblem) -> NDArray[np.float64]:
     """The surface of the full solution for the page's motions; the first handle is at rest."""
@@ -145,6 +152,11 @@ def test_let_go_and_cancel_stop_computing_and_points_stay_soft(
         wait_for_text(page, "#panel", "The model is being improved for point 1.")
         cancel(page)
         wait_for_text(page, "#panel", "Soft, but usable")
+
+        page.run(DISCONNECTED)
+        press(page, "HTML")
+        wait_for_text(page, "#panel", "There is no connection to the server.")
+        page.run(CONNECTED)
 
         page.page.locator("footer input").set_input_files(tmp_path / "bar.snapspace")
         page.page.get_by_role("button", name="Cancel").wait_for(state="detached")

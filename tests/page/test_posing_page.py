@@ -63,13 +63,17 @@ def test_surfaces_are_posed_also_from_files_that_are_dropped(
         page.rest()
         assert np.abs(page.shown() - model.surface.vertices(model.subspace.tau)).max() > 0.02
         assert_shown(model, page)
+        assert page.page.url == posing_page.as_uri(), "a reload shows the page's own model"
+        page.page.get_by_role("button", name="Copy link").click()
+        assert "no address shows it" in page.text("#panel")
 
 
 def test_a_handle_is_dragged_where_float_textures_are_missing(
     posing_model: PosingModel, posing_page: Path, opened: OpenPage
 ) -> None:
-    page = opened(posing_page.as_uri() + "?deform=cpu")
+    page = opened(posing_page.as_uri() + "?deform=cpu&up=w")
     assert not page.run("snapspace.onGpu")
+    assert page.run("snapspace.stage.up") == "z", "an axis that there is not is none"
     assert_dragged(posing_model, page)
 
 

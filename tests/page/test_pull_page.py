@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -85,6 +86,11 @@ def test_kept_points_hold_while_handles_move(posing_page: Path, opened: OpenPage
     page.settle()
     kept = page.shown()
     assert np.abs(kept - rest).max() > 0.01
+    entry = re.search(r"point%201:([^;]*)", page.page.url)
+    assert entry is not None, "a model that has the point as a handle finds it in the address"
+    shift = np.array(entry[1].split(","), float)
+    np.testing.assert_allclose(shift[:3], 0.0)
+    np.testing.assert_allclose(shift[3:], (kept - rest)[vertex], atol=0.05)
     page.drag(page.run("snapspace.handle(1)"), 20, 15)
     moved = np.linalg.norm(page.shown() - kept, axis=1)
     assert moved[vertex] < 0.3 * moved.max(), "the point stays where it was pulled to"
@@ -93,3 +99,4 @@ def test_kept_points_hold_while_handles_move(posing_page: Path, opened: OpenPage
     page.settle()
     assert np.linalg.norm(page.shown() - kept, axis=1)[vertex] > 0.005
     assert page.page.get_by_role("button", name="Let go").is_disabled()
+    assert "point" not in page.page.url

@@ -121,6 +121,12 @@ def test_poses_of_exported_pages_are_in_the_address(
     assert_shown(posing_model, page)
     press(page, "Reset")
     assert "#pose" not in page.page.url
+    page.run("(location.hash = '#pose=head:0,0,0.2,0.1,0,0', null)")
+    reload(page, "posing")
+    head = posing_model.problem.handles.index("head")
+    for handle, (euler, shift) in page.motions().items():
+        wanted = [0, 0, 0.2, 0.1, 0, 0] if handle == head else np.zeros(6)
+        assert [*euler, *shift] == pytest.approx(wanted, abs=1e-6), "others are at rest"
     page = opened(many_poses_page.as_uri() + "#blend=twist_1:0.25;arc-03:0.75")
     weights = page.run("snapspace.session.weights.filter((w) => w !== 0)")
     assert sorted(weights) == [0.25, 0.75]

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 
 from snapspace import InterpolationModel, PosingModel, read_timeline
 
@@ -71,7 +73,11 @@ def test_keys_move_hold_and_go(posing_page: Path, opened: OpenPage) -> None:
     opened_keys(page, content)
     page.wait(f"{TIMELINE}.timeline.keys.length === 3")
     page.page.locator(".key").nth(1).click()
-    page.page.get_by_label("Time of the key in seconds").fill("1.5")
+    when = page.page.get_by_label("Time of the key in seconds")
+    when.fill("-1")
+    page.page.keyboard.press("Tab")
+    assert when.input_value() == "1", "a time that is refused does not stay"
+    when.fill("1.5")
     page.page.keyboard.press("Tab")
     page.page.get_by_label("How the next key is approached").select_option("hold")
     assert page.run(f"{TIMELINE}.timeline.keys.map((key) => [key.time, key.easing])") == [
@@ -87,16 +93,105 @@ def test_keys_move_hold_and_go(posing_page: Path, opened: OpenPage) -> None:
     button(page, "Onion skin").click()
     button(page, "Delete").click()
     assert page.run(f"{TIMELINE}.timeline.keys.length") == 2
+    focused = "[...document.querySelectorAll('.key')].indexOf(document.activeElement)"
+    assert page.run(focused) == 1, "the focus goes to the key that took the place"
 
     for wrong, words in (
         ("{", "no JSON"),
         ({**content, "kind": "interpolation"}, "of kind interpolation"),
         ({**content, "keys": [{"time": 0, "handles": {"tail": head}}]}, "'tail'"),
         ({**content, "keys": keys[::-1]}, "no time after"),
+        ({**content, "keys": [None]}, "Key 0 of the timeline is no object"),
     ):
         opened_keys(page, wrong)
         page.page.get_by_text(words).wait_for()
     assert page.run(f"{TIMELINE}.timeline.keys.length") == 2, "the keys before stay"
+
+
+def test_edits_end_the_film(posing_page: Path, opened: OpenPage) -> None:
+    page = opened(posing_page.as_uri())
+    undo = page.page.get_by_role("button", name="Undo", exact=True)
+    end = {"head": {"translation": [0, 0, 0.2]}}
+    keys = [{"time": t, "handles": end if t else {}} for t in (0, 2)]
+    content = {"format": "snapspace-timeline", "version": 1, "kind": "posing", "keys": keys}
+    opened_keys(page, {**content, "loop": True})
+    page.page.keyboard.press("2")
+    shift = "snapspace.session.motion(1).translation[2]"
+
+    def edit_in_film(edit: Callable[[], None]) -> Any:
+        """The motions after an edit, which no later picture may change."""
+        button(page, "Play keys").click()
+        page.wait(f"{TIMELINE}.isPlaying && {shift} > 0.01")
+        edit()
+        page.settle()
+        edited = page.motions()
+        assert not page.run(f"{TIMELINE}.isPlaying"), "the film ends"
+        page.page.wait_for_timeout(100)
+        assert page.motions() == edited
+        return edited
+
+    at_rest = edit_in_film(lambda: page.page.keyboard.press("r"))
+    assert np.abs([shift for _, shift in at_rest.values()]).max() == 0.0
+    undo.click()
+    assert page.motions() != at_rest, "undo goes back into the film"
+
+    def typed() -> None:
+        page.page.get_by_label("Move y, in the unit of the mesh").fill("0.07")
+        page.page.keyboard.press("Enter")
+
+    assert edit_in_film(typed)[1][1][1] == pytest.approx(0.07)
+    undo.click()
+    assert page.motions()[1][1][1] == pytest.approx(0.0), "the film and the number: two steps"
+
+
+def test_drop_downs_keep_their_keys(posing_page: Path, opened: OpenPage) -> None:
+    page = opened(posing_page.as_uri())
+    for key in "2k":
+        page.page.keyboard.press(key)
+    easing = page.page.get_by_label("How the next key is approached")
+    easing.focus()
+    for key in ("ArrowDown", "l", "s"):
+        page.page.keyboard.press(key)
+    page.settle()
+    assert np.abs(page.motions()[1][1]).max() == 0.0, "no arrow moves the handle"
+    for name in ("Own axes", "Snap"):
+        assert button(page, name).get_attribute("aria-pressed") == "false"
+
+
+def test_play_and_the_keys_end_each_other(many_poses_page: Path, opened: OpenPage) -> None:
+    """A walk of three poses must not go on with the single pose of a key."""
+    page = opened(many_poses_page.as_uri())
+    play, film = button(page, "Play"), button(page, "Play keys")
+    pressed = "(e) => e.getAttribute('aria-pressed') === 'true'"
+    page.page.locator(".weight [type=range]").nth(1).fill("1")
+    page.page.keyboard.press("k")
+    alone = page.run("snapspace.session.weights")
+    assert sorted(alone)[-2:] == [0, 1]
+    button(page, "Mean").click()
+    play.click()
+    page.settle()
+    page.page.locator(".key").click()
+    for _ in range(3):
+        page.settle()
+    assert not play.evaluate(pressed) and page.run("snapspace.session.weights") == alone
+
+    page.page.get_by_label("Time", exact=True).fill("2")
+    page.page.locator(".pose").nth(5).click()
+    page.page.locator(".weight [type=range]").nth(1).fill("0.5")
+    page.page.keyboard.press("k")
+    assert page.run(f"{TIMELINE}.timeline.keys.length") == 2
+    play.click()
+    page.settle()
+    page.page.keyboard.press("p")
+    page.settle()
+    assert film.evaluate(pressed) and not play.evaluate(pressed)
+    play.click()
+    page.settle()
+    assert play.evaluate(pressed) and not film.evaluate(pressed)
+    assert "plays the keys" in page.page.locator("canvas").get_attribute("aria-label")
+    page.page.keyboard.press("?")
+    sheet = page.page.get_by_role("dialog", name="Shortcuts").inner_text()
+    assert all(words in sheet for words in ("jiggle", "add a key, play the keys"))
 
 
 def test_weights_are_keys_too(

@@ -192,6 +192,14 @@ def test_the_film_that_a_model_was_saved_with_is_played(
     end = KEYS["keys"][-1]["handles"]["head"]
     session.move("head", euler=np.deg2rad(end["degrees"]), translation=end["translation"])
     assert_shown(viewer, posing_model.surface.vertices(session.vertices), rest)
+    press_in_film = """(canvas) => {
+      const viewer = document.querySelector("snapspace-viewer");
+      viewer.play();
+      canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "r", code: "KeyR", bubbles: true }));
+      return viewer.isPlaying;
+    }"""
+    canvas = viewer.page.locator("snapspace-viewer canvas")
+    assert canvas.evaluate(press_in_film) is False, "a reset in the film stays"
 
 
 def test_a_picture_is_transparent_and_has_the_size_that_was_asked_for(opened: Open) -> None:

@@ -2,7 +2,7 @@ import { UnreadableModel } from "../engine/index.ts";
 import { AxisWidget } from "./axis_widget.ts";
 import { compiledCore } from "./core_bytes.ts";
 import { h } from "./dom.ts";
-import { Stage, type Axis } from "./stage.ts";
+import { isAxis, Stage, type Axis } from "./stage.ts";
 import { followTheme } from "./theme.ts";
 import type { View, ViewOptions } from "./view.ts";
 
@@ -44,8 +44,9 @@ export class AppShell {
 
   /** Options from the page's address. */
   options(up: Axis | undefined): ViewOptions {
+    const asked = this.#query.get("up");
     return {
-      up: (this.#query.get("up") ?? up ?? "z") as Axis,
+      up: isAxis(asked) ? asked : (up ?? "z"),
       forceCpu: this.#query.get("deform") === "cpu",
     };
   }
@@ -73,6 +74,7 @@ export class AppShell {
     this.#panel.scrollTop = 0;
     document.title = title || "Snapspace";
     const { renderer, scene } = this.stage;
+    renderer.canvas.setAttribute("aria-label", view.label);
     this.stage.fit(); // the panel takes some of its place: already in the first picture
     this.stage.drawNow();
     renderer.prepare(scene); // hidden parts as well, such as the gizmo: the first press should not wait

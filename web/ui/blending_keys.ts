@@ -1,4 +1,9 @@
-/** Keys, while no field has the focus: Space plays, / searches the poses, F, W and J as in posing. */
+import { isTaken } from "./taken_keys.ts";
+
+/** Letters and the ids of the buttons that they press. */
+const BUTTONS: Record<string, string> = { f: "frame", w: "wires", j: "jiggle", k: "add-key", p: "play-keys" };
+
+/** Keys, while no field has the focus: Space plays, / searches the poses, F, W, J, K and P as in posing. */
 export function listenToBlendingKeys(
   play: HTMLButtonElement,
   search: HTMLInputElement | null,
@@ -7,14 +12,12 @@ export function listenToBlendingKeys(
   const act = (event: KeyboardEvent) => {
     const { target } = event;
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (target instanceof HTMLInputElement && target.type !== "range") return;
+    if (isTaken(event) || document.querySelector("dialog[open]")) return;
     const key = event.key.toLowerCase();
     if (key === " " && !(target instanceof HTMLElement && target.matches("button, summary, input")))
       play.click();
     else if (key === "/" && search) search.focus();
-    else if (key === "f") document.getElementById("frame")?.click();
-    else if (key === "w") document.getElementById("wires")?.click();
-    else if (key === "j") document.getElementById("jiggle")?.click();
+    else if (BUTTONS[key]) document.getElementById(BUTTONS[key])?.click();
     else return;
     event.preventDefault();
   };

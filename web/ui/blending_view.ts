@@ -5,7 +5,7 @@ import { blendPanel } from "./blend_panel.ts";
 import { BlendPath, type Jump } from "./blend_path.ts";
 import { listenToBlendingKeys } from "./blending_keys.ts";
 import { blendHash, keepHashSoon } from "./address.ts";
-import { chooser, enable, h, toggle } from "./dom.ts";
+import { chooser, enable, h, mark, toggle } from "./dom.ts";
 import { CLAY } from "./handle_colors.ts";
 import { ExportPanel } from "./export_panel.ts";
 import { Ghosts, still } from "./ghosts.ts";
@@ -29,6 +29,7 @@ import { Readout } from "./readout.ts";
 import { BLENDING, shortcutSheet } from "./shortcuts.ts";
 import { VIEWS, type Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
+import { label } from "./surface_labels.ts";
 import { thumbnail } from "./thumbnail.ts";
 import { TimelinePanel } from "./timeline_panel.ts";
 import type { View, ViewOptions } from "./view.ts";
@@ -68,24 +69,30 @@ export async function blendingView(
   ];
   let solved: number[] | null = null;
 
-  const ask = (asked: PoseChoice) => {
+  /** Play and the timeline both set the weights: where one begins, the other ends. */
+  const stopWalking = () => {
     path.play(false);
+    mark(play, "aria-pressed", false);
+  };
+  const ask = (asked: PoseChoice) => {
+    stopWalking();
     timeline.play(false);
-    play.setAttribute("aria-pressed", "false");
     hud.remark("");
     choice = asked;
     showChoice(); // the next click may come before the next picture
     keep();
     stage.draw();
   };
-  const keep = () =>
-    keepHashSoon(() =>
-      blendHash(
-        choice.poses.map((pose) => model.poses[pose]),
-        choice.weights,
-      ),
+  const hash = () =>
+    blendHash(
+      choice.poses.map((pose) => model.poses[pose]),
+      choice.weights,
     );
+  const keep = () => {
+    if (!options.isFromFile) keepHashSoon(hash);
+  };
   const play = toggle("Play", "Space", false, (on) => {
+    if (on) timeline.play(false);
     path.play(on);
     if (!on) keep();
     hud.remark("");
@@ -126,9 +133,7 @@ export async function blendingView(
       return session.step(dt, allWeights(choice, model.poses.length));
     },
     settle: () => session.blend(allWeights(choice, model.poses.length)),
-    get speed() {
-      return session.speed;
-    },
+    speed: () => session.speed,
   });
   const solve = (seconds: number) => {
     const wish = allWeights(choice, model.poses.length);
@@ -167,6 +172,7 @@ export async function blendingView(
     states: weightStates(model.poses),
     state: () => allWeights(choice, model.poses.length),
     show: (weights) => {
+      stopWalking();
       choice = choiceOfWeights(weights);
       showChoice();
       stage.draw();
@@ -178,6 +184,7 @@ export async function blendingView(
   const takeAway = new ExportPanel(stage, {
     name: model.name,
     faces: model.faces,
+    isFromFile: options.isFromFile,
     page: options.page && (() => options.page!(timeline.content)),
     shape: () => elastic.shown(),
     bare: () => () => {},
@@ -217,6 +224,7 @@ export async function blendingView(
 
   return {
     hud,
+    label: "The shape. Keys: Space walks through the poses, K adds a key, P plays the keys.",
     panel: [
       ...panel.sections,
       qualitySection(model.dimension, (d) => {
@@ -226,7 +234,7 @@ export async function blendingView(
         hud.dimension(d, model.dimension);
         stage.draw();
       }),
-      jigglePanel(jiggle, () => stage.draw(), null),
+      jigglePanel(jiggle, () => stage.draw(), null).element,
       timeline.element,
       look.element,
       takeAway.element,
@@ -267,27 +275,4 @@ function warningOf({ outside, certain }: BlendingSession, { status }: FrameRepor
   if (status === "unbounded") return "The energy has no minimum this far out; the last shape is shown";
   if (certain === false) return "Too far: the energy may have no minimum";
   return outside.length > 0 ? `Beyond what was sampled: ${outside.join(", ")}` : "";
-}
-
-/** Puts the names below their shapes. */
-function label(stage: Stage, names: HTMLElement[], surfaces: Surface[], visible: boolean): void {
-  const { clientWidth, clientHeight } = stage.renderer.canvas;
-  names.forEach((name, i) => {
-    name.hidden = !visible;
-    if (!visible) return;
-    const foot = new Vector3().setFromMatrixPosition(surfaces[i].object.matrixWorld);
-    const middle = new Vector3(...middleOf(surfaces[i].space.base)).applyMatrix4(
-      surfaces[i].object.matrixWorld,
-    );
-    foot.set(middle.x, 0, middle.z).project(stage.camera);
-    name.style.left = `${((foot.x + 1) / 2) * clientWidth}px`;
-    name.style.top = `${((1 - foot.y) / 2) * clientHeight + 26}px`;
-  });
-}
-
-function middleOf(shape: Float32Array): [number, number, number] {
-  const sum = [0, 0, 0];
-  for (let i = 0; i < shape.length; i++) sum[i % 3] += shape[i];
-  const count = shape.length / 3;
-  return [sum[0] / count, sum[1] / count, sum[2] / count];
 }

@@ -1,5 +1,6 @@
 import type { Choosing, Tool } from "./choosing.ts";
 import type { ChoosingTools } from "./choosing_tools.ts";
+import { isTaken } from "./taken_keys.ts";
 
 const TOOLS: Record<string, Tool> = { b: "brush", x: "box", l: "lasso", v: "look" };
 const STEP = 14; // pixels
@@ -19,7 +20,7 @@ export function listenToChoosingKeys(keys: ChoosingKeys, signal: AbortSignal): v
 
 function handle(keys: ChoosingKeys, event: KeyboardEvent): void {
   if (document.querySelector("dialog[open]")) return;
-  if (event.target instanceof HTMLInputElement && event.target.type !== "range") return;
+  if (isTaken(event)) return;
   const { choosing } = keys;
   if (choosing.isBusy && event.key !== "Escape") {
     if (!["Alt", "Shift", "Control", "Meta"].includes(event.key)) event.preventDefault();

@@ -82,6 +82,7 @@ export function choosingView(
   return {
     choosing,
     hud: meshHud(scene),
+    label: "The body. Keys: arrows move the brush, Space paints, Enter makes a handle.",
     panel: [
       ...meshNotes(given.notices ?? []),
       ...body,

@@ -4,6 +4,7 @@ import { h, section, toggle } from "./dom.ts";
 import { download } from "./download.ts";
 import { gifTurntable, Recording, webmTurntable } from "./film.ts";
 import { paper, png, type Size } from "./picture.ts";
+import { Refused } from "./server.ts";
 import type { Stage } from "./stage.ts";
 
 /** What is taken out of the page. */
@@ -14,6 +15,8 @@ export interface Exported {
   shape(): Float32Array<ArrayBuffer>;
   /** Gives the user a page in one file with the model, if there is a server. */
   readonly page?: (() => Promise<void>) | undefined;
+  /** Whether the page's address does not lead to the shape, as for a file that was opened in the page. */
+  readonly isFromFile?: boolean | undefined;
   /** Hides what is no part of the shape, such as a gizmo; the result shows it again. */
   bare(): () => void;
 }
@@ -163,6 +166,10 @@ export class ExportPanel {
   }
 
   async #link(): Promise<void> {
+    if (this.#exported.isFromFile) {
+      this.#remark.textContent = "This model was opened from a file: no address shows it.";
+      return;
+    }
     const address = currentAddress();
     try {
       await navigator.clipboard.writeText(address);
@@ -180,7 +187,8 @@ export class ExportPanel {
     try {
       await act();
     } catch (error) {
-      if (!(error instanceof RangeError)) console.error(error);
+      const isExpected = error instanceof RangeError || error instanceof Refused;
+      if (!isExpected) console.error(error);
       this.#remark.textContent = error instanceof Error ? error.message : String(error);
     }
   }

@@ -1,11 +1,12 @@
-/** States that can be gone back to. */
+/** States that can be gone back to. A state that is the same as the present one is no step. */
 export class History<T> {
   #past: T[] = [];
   #future: T[] = [];
   #present: T;
+  readonly #isSame: (a: T, b: T) => boolean;
 
-  constructor(present: T) {
-    this.#present = present;
+  constructor(present: T, isSame: (a: T, b: T) => boolean = Object.is) {
+    [this.#present, this.#isSame] = [present, isSame];
   }
 
   get canUndo(): boolean {
@@ -29,6 +30,7 @@ export class History<T> {
   }
 
   push(state: T): void {
+    if (this.#isSame(state, this.#present)) return;
     this.#past.push(this.#present);
     if (this.#past.length > 200) this.#past.shift();
     this.#present = state;

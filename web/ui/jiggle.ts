@@ -15,7 +15,7 @@ export interface Swinging {
   /** The static solve for what is set, where a swing without gravity ends. */
   settle(): FrameReport;
   /** In coordinate scales per second. */
-  readonly speed: number;
+  speed(): number;
 }
 
 /** Runs steps in time as fast as time passes, until the body rests. */
@@ -67,7 +67,7 @@ export class Jiggle {
     while (this.#waiting >= DT) {
       this.#waiting -= DT;
       report = this.#swinging.step(DT, this.dynamics);
-      this.#still = this.#swinging.speed < RESTING ? this.#still + 1 : 0;
+      this.#still = this.#swinging.speed() < RESTING ? this.#still + 1 : 0;
       if (this.#still === STILL) {
         this.#still = 0;
         this.#moves = false;

@@ -2,12 +2,13 @@ import { h, section, slider, toggle } from "./dom.ts";
 import type { Jiggle } from "./jiggle.ts";
 import type { Axis } from "./stage.ts";
 
-/** The switch of the swing, and its settings while it is on. Gravity is in diagonals of the body per square second. */
+/** The switch of the swing, and its settings while it is on. Gravity is in diagonals of the body per square second;
+ * `turn` lets it pull down again after another axis points up. */
 export function jigglePanel(
   jiggle: Jiggle,
   draw: () => void,
   gravity: { readonly diagonal: number; readonly up: () => Axis } | null,
-): HTMLElement {
+): { element: HTMLElement; turn(): void } {
   const change = (act: () => void) => {
     act();
     jiggle.wake();
@@ -32,11 +33,17 @@ export function jigglePanel(
       (share) => set({ damping: share }),
     ).element,
   );
+  let strength = 0;
+  const fall = () => {
+    if (!gravity) return;
+    const size = -strength * gravity.diagonal;
+    const [x, y, z] = ["x", "y", "z"].map((axis) => (axis === gravity.up() ? size : 0));
+    set({ gravity: [x, y, z] });
+  };
   if (gravity) {
     const pull = (diagonals: number) => {
-      const size = -diagonals * gravity.diagonal;
-      const [x, y, z] = ["x", "y", "z"].map((axis) => (axis === gravity.up() ? size : 0));
-      set({ gravity: [x, y, z] });
+      strength = diagonals;
+      fall();
     };
     const range = { min: 0, max: 3, step: 0.1, value: 0 };
     settings.append(slider("Gravity", range, (diagonals) => diagonals.toFixed(1), pull).element);
@@ -46,5 +53,6 @@ export function jigglePanel(
     change(() => (jiggle.isOn = on));
   });
   button.id = "jiggle";
-  return section("Motion", h("div", { className: "row" }, button), settings);
+  const element = section("Motion", h("div", { className: "row" }, button), settings);
+  return { element, turn: () => strength > 0 && fall() };
 }

@@ -3,7 +3,7 @@ import { quaternionOf, rotationOf } from "./rotations.ts";
 import type { States } from "./timeline_file.ts";
 
 const DEGREES = 180 / Math.PI;
-const REST: Motion = { rotation: [1, 0, 0, 0, 1, 0, 0, 0, 1], translation: [0, 0, 0] };
+export const REST: Motion = { rotation: [1, 0, 0, 0, 1, 0, 0, 0, 1], translation: [0, 0, 0] };
 
 /** Motions of handles: centroids move straight, and handles turn about one axis. */
 export function handleStates(names: readonly string[]): States<readonly Motion[]> {

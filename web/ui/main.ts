@@ -55,7 +55,8 @@ async function open(source: () => Promise<Source | null>, file?: File): Promise<
     const choose = workspace && (() => (file ? void workspace.upload(file) : workspace.edit()));
     // the address is of the page's own model
     const hash = isOwn ? location.hash : "";
-    const options = { ...shell.options(model.up), polish, motions: motionsOf(hash), blend: blendOf(hash) };
+    const kept = { motions: motionsOf(hash), blend: blendOf(hash), isFromFile: !isOwn };
+    const options = { ...shell.options(model.up), ...kept, polish };
     if (choose) Object.assign(options, { choose });
     if (workspace) Object.assign(options, { improving: isOwn ? workspace.improving : NOT_SERVED });
     if (server && isOwn) {

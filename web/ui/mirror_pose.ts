@@ -10,9 +10,7 @@ export function mirrorPose(posing: Posing) {
   const act = () => {
     const { mirror } = posing.session.model;
     if ("refused" in mirror) return void setText(hint, mirror.refused);
-    if (posing.isDragging) return;
-    mirroredMotions(posing.motions, mirror).forEach((motion, handle) => posing.wish(handle, motion));
-    posing.commit();
+    if (!posing.isDragging) posing.edit(mirroredMotions(posing.motions, mirror).entries());
   };
   const button = h("button", { type: "button", id: "mirror-pose", onclick: act }, "Mirror pose");
   /** Shows whether the model can be mirrored. It can still be pressed, so that keys reach the reason too. */

@@ -14,6 +14,11 @@ export function approach(session: PosingSession, motions: readonly Motion[]): Fr
   return report;
 }
 
+/** Whether all handles have the same motions in two states. */
+export function areSame(a: readonly Motion[], b: readonly Motion[]): boolean {
+  return JSON.stringify(a) === JSON.stringify(b);
+}
+
 function partOf(motion: Motion, share: number): Motion {
   if (share === 1) return motion;
   const [a, b, c] = eulerOfRotation(motion.rotation);

@@ -4,7 +4,7 @@ import { HandlePaint } from "./handle_paint.ts";
 import { carriedOver, ShapeTransition } from "./shape_transition.ts";
 import { History } from "./history.ts";
 import { Jiggle } from "./jiggle.ts";
-import { approach } from "./motion_parts.ts";
+import { approach, areSame } from "./motion_parts.ts";
 import type { Pulled } from "./pulling.ts";
 import { Snapping } from "./snapping.ts";
 import type { Stage } from "./stage.ts";
@@ -22,6 +22,8 @@ export class Posing {
   onSolved: (report: FrameReport) => void = () => {};
   /** After the end of a drag, and when a swing has come to rest. */
   onReleased: () => void = () => {};
+  /** Before an edit that is no drag: ends a film, which would overwrite it. */
+  beforeEdit: () => void = () => {};
   /** After selection, mode or history have changed. */
   onChange: () => void = () => {};
   #session: PosingSession;
@@ -50,15 +52,12 @@ export class Posing {
     this.#session = session;
     this.#surface = surface;
     this.#paint = new HandlePaint(surface, session.model, -1);
-    this.#history = new History(this.motions);
+    this.#history = new History<readonly Motion[]>(this.motions, areSame);
     this.snapping = new Snapping(session.model.diagonal);
-    const posing = this;
     this.jiggle = new Jiggle({
       step: (dt, dynamics) => this.#step(dt, dynamics),
       settle: () => this.session.solve(),
-      get speed() {
-        return posing.session.speed;
-      },
+      speed: () => this.session.speed,
     });
     this.#show();
   }
@@ -94,7 +93,7 @@ export class Posing {
   /** Begins with the handles at motions. */
   begin(motions: readonly Motion[]): void {
     this.#solved(approach(this.session, motions));
-    this.#history = new History(this.motions);
+    this.#history = new History<readonly Motion[]>(this.motions, areSame);
     this.onChange();
   }
 
@@ -134,6 +133,13 @@ export class Posing {
     this.stage.draw();
   }
 
+  /** Moves handles at once, as a step of undo. */
+  edit(motions: Iterable<readonly [number, Motion]>): void {
+    this.beforeEdit();
+    for (const [handle, motion] of motions) this.wish(handle, motion);
+    this.commit();
+  }
+
   /** What a drag from `start` asks for, rounded if that is switched on. */
   snapped(start: Motion, asked: Motion): Motion {
     return this.snapping.rounded(start, asked, this.isLocal);
@@ -142,16 +148,6 @@ export class Posing {
   /** The motion that is asked for, or the present one. */
   motion(handle: number): Motion {
     return this.#wishes.get(handle) ?? this.session.motion(handle);
-  }
-
-  /** Runs what a drag runs a few times, and returns to rest. `follow` runs what follows a solve. */
-  warmUp(follow: () => void): void {
-    const show = () => {
-      this.#show();
-      follow();
-    };
-    this.session.warmUp(show);
-    show();
   }
 
   /** Solves for what was asked since the last time. */
@@ -241,15 +237,20 @@ export class Posing {
   }
 
   undo(): void {
-    if (!this.isDragging) this.#goTo(this.#history.undo());
+    if (this.isDragging) return;
+    this.beforeEdit();
+    this.#goTo(this.#history.undo());
   }
 
   redo(): void {
-    if (!this.isDragging) this.#goTo(this.#history.redo());
+    if (this.isDragging) return;
+    this.beforeEdit();
+    this.#goTo(this.#history.redo());
   }
 
   reset(): void {
     if (this.isDragging) return;
+    this.beforeEdit();
     this.#wishes.clear();
     this.session.reset();
     this.#history.push(this.motions);

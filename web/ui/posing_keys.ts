@@ -2,6 +2,7 @@ import { Vector3 } from "three";
 
 import { turnedInView } from "./posing_drag.ts";
 import type { Posing } from "./posing.ts";
+import { isTaken } from "./taken_keys.ts";
 
 const STEP = 0.015; // of the diagonal
 const TURN = Math.PI / 36;
@@ -21,8 +22,7 @@ export function actOn(event: KeyboardEvent, posing: Posing, press: (button: stri
     event.preventDefault();
     return;
   }
-  const field = event.target;
-  if (field instanceof HTMLInputElement && (field.type !== "range" || event.key.startsWith("Arrow"))) return;
+  if (isTaken(event)) return;
   if (event.code.startsWith("Numpad")) return; // views
   if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z") {
     event.shiftKey ? posing.redo() : posing.undo();
@@ -67,7 +67,7 @@ function step(posing: Posing, key: string): void {
   const { selected, session, stage } = posing;
   const before = posing.motion(selected);
   if (posing.mode === "turn") {
-    posing.wish(selected, turnedInView(posing, before, across * TURN, -up * TURN));
+    posing.edit([[selected, turnedInView(posing, before, across * TURN, -up * TURN)]]);
   } else {
     const size = STEP * session.model.diagonal;
     const shift = new Vector3(across, up, 0).applyQuaternion(stage.camera.quaternion);
@@ -76,7 +76,7 @@ function step(posing: Posing, key: string): void {
       .multiplyScalar(size)
       .toArray();
     const t = before.translation;
-    posing.wish(selected, { rotation: before.rotation, translation: [t[0] + x, t[1] + y, t[2] + z] });
+    const translation = [t[0] + x, t[1] + y, t[2] + z] as const;
+    posing.edit([[selected, { rotation: before.rotation, translation }]]);
   }
-  posing.commit();
 }

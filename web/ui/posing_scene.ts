@@ -41,8 +41,7 @@ export class PosingScene {
     this.gizmo = new Gizmo(this.posing, this.#stop.signal);
     this.#marks = new Marks(this.posing);
     this.drag = new HandleDrag(this.posing, this.gizmo, this.#stop.signal);
-    this.posing.warmUp(() => this.follow());
-    this.drag.warmUp();
+    this.#warmUp();
   }
 
   /** The model that is shown. */
@@ -86,6 +85,19 @@ export class PosingScene {
     this.#marks = new Marks(this.posing);
     before.object.removeFromParent();
     before.dispose();
+  }
+
+  /** Runs what a drag runs a few times, and returns to rest. */
+  #warmUp(): void {
+    const { session, surface } = this.posing;
+    const show = () => {
+      surface.show(session.q);
+      surface.carry(session.carriedBy);
+      this.follow();
+    };
+    session.warmUp(show);
+    show();
+    this.drag.warmUp();
   }
 
   dispose(): void {

@@ -6,7 +6,7 @@ import { ExportPanel } from "./export_panel.ts";
 import { FurtherHandles } from "./further_handles.ts";
 import { Hud } from "./hud.ts";
 import { jigglePanel } from "./jiggle_panel.ts";
-import { handleStates } from "./key_states.ts";
+import { handleStates, REST } from "./key_states.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
 import type { Mode, Posing } from "./posing.ts";
 import { mirrorPose } from "./mirror_pose.ts";
@@ -22,7 +22,12 @@ import { POSING, shortcutSheet } from "./shortcuts.ts";
 import { VIEWS, type Stage } from "./stage.ts";
 import type { Motions, View, ViewOptions } from "./view.ts";
 
-const HELP = "Drag a coloured part to move it, or Shift-drag to turn it. Drag elsewhere to look around.";
+/** What drags do in each mode. */
+const HELP: Record<Mode, string> = {
+  move: "Drag a coloured part to move it, or Shift-drag to turn it. Drag elsewhere to look around.",
+  turn: "Drag a coloured part to turn it. Drag elsewhere to look around.",
+  pull: "Drag a coloured part to move it, or Shift-drag to turn it. Drag beside the shape to look around.",
+};
 
 /** A view whose model can be replaced by a better one, of these handles and perhaps more, also in the middle of a drag. */
 export interface PosingView extends View {
@@ -44,7 +49,7 @@ export async function posingView(
   const scene = await PosingScene.create(stage, module, model, options);
   const { posing, gizmo, drag, surfaces } = scene;
   const pulling = new Pulling(posing, module, scene.signal);
-  const pulls = pullRow(pulling, options.improving);
+  const pulls = pullRow(pulling, options.improving, () => keep());
   listenToKeys(posing, scene.signal);
 
   const hud = new Hud(
@@ -85,10 +90,7 @@ export async function posingView(
   const reset = h("button", { type: "button", title: "R", onclick: () => posing.reset() }, "Reset");
   const mirror = mirrorPose(posing);
   const figures = h("p", { className: "figures" });
-  const fields = new MotionFields(model.diagonal, (motion) => {
-    posing.wish(posing.selected, motion);
-    posing.commit();
-  });
+  const fields = new MotionFields(model.diagonal, (...typed) => posing.edit([typed]));
 
   const polishing =
     options.polish &&
@@ -108,8 +110,15 @@ export async function posingView(
   posing.onReleased = () => {
     if (!posing.jiggle.moves) void polishing?.ask();
   };
+  /** Of kept points too: a better model may have them as handles when the page is loaded again. */
   const motions = () =>
-    new Map(posing.motions.map((motion, handle) => [namesOf(posing)[handle], motion] as const));
+    new Map([
+      ...posing.motions.map((motion, handle) => [namesOf(posing)[handle], motion] as const),
+      ...pulling.motions,
+    ]);
+  const keep = () => {
+    if (!options.isFromFile) keepHash(() => poseHash(motions()));
+  };
   const readout = new Readout(
     () =>
       [
@@ -121,9 +130,9 @@ export async function posingView(
       ].includes(true),
     () => hud.warn(warningOf(posing.session)),
     () => {
-      fields.show(posing.selected < 0 ? null : posing.session.motion(posing.selected));
+      fields.show(posing.selected, posing.selected < 0 ? null : posing.session.motion(posing.selected));
       if (figures.hidden !== posing.selected >= 0) figures.hidden = posing.selected >= 0;
-      return setText(figures, HELP);
+      return setText(figures, HELP[posing.mode]);
     },
     () => hud.update(),
   );
@@ -132,10 +141,11 @@ export async function posingView(
     gizmo.update();
     readout.now();
     pulls.show(posing.mode === "pull");
-    if (!posing.isDragging) keepHash(() => poseHash(motions()));
+    if (!posing.isDragging) keep();
   };
+  posing.beforeEdit = () => timeline.play(false);
   const start = model.handles.map(({ name }) => options.motions?.get(name));
-  if (start.every((motion) => motion !== undefined)) posing.begin(start);
+  if (start.some((motion) => motion !== undefined)) posing.begin(start.map((motion) => motion ?? REST));
   else posing.onChange();
   stage.beforeFrame = (seconds) => {
     if (posing.isDragging) timeline.play(false);
@@ -212,6 +222,7 @@ export async function posingView(
   const takeAway = new ExportPanel(stage, {
     name: model.name,
     faces: model.faces,
+    isFromFile: options.isFromFile,
     page: options.page && (() => options.page!(timeline.content)),
     shape: () => shownShape(posing),
     bare,
@@ -219,6 +230,9 @@ export async function posingView(
   const { panel: timeline, ghosts } = posingTimeline(posing, model.name, () => scene.anotherSurface(), bare);
   if (options.timeline) timeline.read(options.timeline);
   else if (model.timeline !== undefined) timeline.load(model.timeline);
+  const gravity = model.frames && { diagonal: model.diagonal, up: () => stage.up };
+  const swing = jigglePanel(posing.jiggle, () => stage.draw(), gravity);
+  stage.placed = () => swing.turn();
   const panel = [
     section(
       "Handles",
@@ -233,17 +247,14 @@ export async function posingView(
       ...chooser(options.choose),
     ),
     quality,
-    jigglePanel(
-      posing.jiggle,
-      () => stage.draw(),
-      model.frames && { diagonal: model.diagonal, up: () => stage.up },
-    ),
+    swing.element,
     timeline.element,
     look.element,
     takeAway.element,
   ];
   return {
     hud,
+    label: "The shape. Keys: 1 to 9 choose a handle, arrows move or turn it.",
     panel,
     replace,
     get motions() {

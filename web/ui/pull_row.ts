@@ -3,10 +3,11 @@ import type { Improving } from "./improving.ts";
 import type { Pulling } from "./pulling.ts";
 
 /** The controls of pulled points, shown in the mode *Pull* and while points are kept. `improving` makes handles of kept
- * points, or is a text that says why nothing does. */
+ * points, or is a text that says why nothing does; `onKept` is called after points were kept or let go. */
 export function pullRow(
   pulling: Pulling,
   improving: Improving | string = "",
+  onKept: () => void = () => {},
 ): { element: HTMLElement; show(isPulling: boolean): void } {
   const keep = toggle("Keep points", "Points stay where they are pulled to, like handles", false, (on) => {
     pulling.keeps = on;
@@ -36,6 +37,7 @@ export function pullRow(
       shares: [a, b, c] as const,
     }));
     queue?.keep(points);
+    onKept();
   };
   return {
     element,

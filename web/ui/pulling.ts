@@ -9,10 +9,12 @@ import {
   type PulledPoint,
   type Pulls,
 } from "../engine/index.ts";
+import { IDENTITY, minus } from "../engine/motion.ts";
 import { Dot } from "../render/index.ts";
 import { listenToPointers } from "./canvas_pointers.ts";
 import { rayAt } from "./canvas_ray.ts";
 import type { Posing } from "./posing.ts";
+import type { Motions } from "./view.ts";
 
 const DOT = 0.02; // of the diagonal
 const WHITE = new Color("#ffffff");
@@ -64,6 +66,17 @@ export class Pulling {
   get kept(): (KeptPoint & { reach: readonly [number, number, number] })[] {
     const { model, carriedBy } = this.#posing.session;
     return this.#kept.map((point) => ({ ...point, reach: reachOf(model, point, carriedBy) }));
+  }
+
+  /** Of kept points, as handles that do not turn. */
+  get motions(): Motions {
+    const { model } = this.#posing.session;
+    return new Map(
+      this.#kept.map((point) => {
+        const translation = minus(point.target, placeOf(model, point, [], IDENTITY));
+        return [point.name, { rotation: IDENTITY.rotation, translation }];
+      }),
+    );
   }
 
   /** All points that are pulled now. */

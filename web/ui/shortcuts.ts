@@ -1,4 +1,5 @@
 import { h } from "./dom.ts";
+import { isTaken } from "./taken_keys.ts";
 
 /** Keys and what they do. */
 export type Shortcuts = readonly (readonly [string, string])[];
@@ -29,6 +30,8 @@ export const CHOOSING: Shortcuts = [
 export const BLENDING: Shortcuts = [
   ["Space", "walk through the poses"],
   ["/", "search for a pose"],
+  ["J", "jiggle"],
+  ["K, P", "add a key, play the keys"],
 ];
 const LOOKING: Shortcuts = [
   ["Drag beside the shape", "look around"],
@@ -63,7 +66,7 @@ export function shortcutSheet(
     "keydown",
     (event) => {
       const view = PADS[event.code];
-      if (event.target instanceof HTMLInputElement && event.target.type !== "range") return;
+      if (isTaken(event)) return;
       if (event.key === "?") show();
       else if (view && !event.ctrlKey && !event.altKey) look(view);
       else return;

@@ -6,6 +6,10 @@ import { boxOf } from "./box_of.ts";
 
 export type Axis = "x" | "y" | "z";
 
+export function isAxis(text: string | null): text is Axis {
+  return text === "x" || text === "y" || text === "z";
+}
+
 /** The margin around a shape in a small picture, as a share of its size. */
 const MARGIN = 0.05;
 
@@ -29,6 +33,8 @@ export class Stage {
   up: Axis = "z";
   /** Called before each picture that is drawn. */
   beforeFrame: (seconds: number) => void = () => {};
+  /** Called after a model was placed with an axis up. */
+  placed: () => void = () => {};
   /** Called after each picture: animations ask for the next one here. */
   afterFrame: () => void = () => {};
   /** Called after each picture, whatever is shown. */
@@ -85,7 +91,7 @@ export class Stage {
 
   /** Forgets the view that was shown. */
   rest(): void {
-    this.beforeFrame = this.afterFrame = this.restored = () => {};
+    this.beforeFrame = this.afterFrame = this.restored = this.placed = () => {};
   }
 
   /** Gives the graphics back: browsers have few for a page. The canvas cannot be drawn on again. */
@@ -111,6 +117,7 @@ export class Stage {
     this.root.updateMatrixWorld(true);
     this.#height = (box.max[up] - box.min[up]) / diagonal;
     this.look();
+    this.placed();
   }
 
   /** The first view: from the front, a little to the side and above; or from another direction. `width` is what must be

@@ -2,6 +2,7 @@ import { h } from "./dom.ts";
 import type { MeshScene } from "./mesh_scene.ts";
 import { shortcutSheet } from "./shortcuts.ts";
 import { VIEWS, type Stage } from "./stage.ts";
+import { isTaken } from "./taken_keys.ts";
 import type { View } from "./view.ts";
 
 export interface SurfaceView extends View {
@@ -17,6 +18,7 @@ export function surfaceView(stage: Stage, scene: MeshScene, below: readonly HTML
   let isTaken = false;
   return {
     hud: meshHud(scene),
+    label: "The surface.",
     panel: [scene.panel, ...below],
     script: { kind: "surface", scene },
     take: () => {
@@ -50,9 +52,9 @@ function insideCount(vertices: number, faces: Uint32Array): number {
 }
 
 /** F and W, while no field has the focus. */
-function press({ key, target, ctrlKey, metaKey, altKey }: KeyboardEvent): void {
-  if (ctrlKey || metaKey || altKey || document.querySelector("dialog[open]")) return;
-  if (target instanceof HTMLInputElement && target.type !== "range") return;
+function press(event: KeyboardEvent): void {
+  const { key, ctrlKey, metaKey, altKey } = event;
+  if (ctrlKey || metaKey || altKey || isTaken(event) || document.querySelector("dialog[open]")) return;
   if (key.toLowerCase() === "f") document.getElementById("frame")?.click();
   if (key.toLowerCase() === "w") document.getElementById("wires")?.click();
 }

@@ -38,6 +38,11 @@ export class TimelinePanel<State> {
   #onion = false;
   readonly #pictures = new Map<State, string>();
   readonly #play = toggle("Play keys", "Solves and shows every frame; P", false, (on) => this.play(on));
+  readonly #add = h(
+    "button",
+    { type: "button", title: "K", id: "add-key", onclick: () => this.add() },
+    "Add key",
+  );
   readonly #clock = h("output", {});
   readonly #track = h("input", { type: "range", min: 0, step: "any", "aria-label": "Time" });
   readonly #keys = h("div", { className: "keys", role: "group", "aria-label": "Keys" });
@@ -54,11 +59,6 @@ export class TimelinePanel<State> {
   constructor(stage: Stage, animated: Animated<State>) {
     [this.#stage, this.#animated, this.#states] = [stage, animated, animated.states];
     this.#play.id = "play-keys";
-    const add = h(
-      "button",
-      { type: "button", title: "K", id: "add-key", onclick: () => this.add() },
-      "Add key",
-    );
     const onion = toggle("Onion skin", "The keys before and after, pale", false, (on) => {
       this.#onion = on;
       this.#skin();
@@ -78,7 +78,7 @@ export class TimelinePanel<State> {
     this.#selected.append(this.#when, h("span", {}, "s"), this.#easing, this.#remove);
     this.element = section(
       "Timeline",
-      h("div", { className: "row" }, this.#play, add),
+      h("div", { className: "row" }, this.#play, this.#add),
       h("label", { className: "slider" }, h("span", {}, "Time"), this.#clock, this.#track),
       this.#keys,
       this.#selected,
@@ -180,12 +180,17 @@ export class TimelinePanel<State> {
 
   #delete(): void {
     const key = this.#timeline.find(this.#time);
-    if (key >= 0) this.#take(this.#timeline.without(key));
+    if (key < 0) return;
+    this.#take(this.#timeline.without(key));
+    // Delete, which had the focus, is hidden now
+    const { children } = this.#keys;
+    ((children[Math.min(key, children.length - 1)] as HTMLElement | undefined) ?? this.#add).focus();
   }
 
   #reschedule(): void {
     const key = this.#timeline.find(this.#time);
-    if (key < 0 || !this.#when.reportValidity()) return;
+    if (key < 0) return;
+    if (!this.#when.validity.valid) return this.#showTime(); // the number that was refused goes
     const moved = this.#timeline.moved(key, this.#when.valueAsNumber);
     if (moved !== this.#timeline) this.#time = this.#when.valueAsNumber;
     this.#take(moved);

@@ -8,6 +8,8 @@ import type { Axis } from "./stage.ts";
 export interface View {
   readonly hud: Pick<Hud, "element" | "notice">;
   readonly panel: HTMLElement[];
+  /** What the stage shows and which keys it takes, for screen readers. */
+  readonly label: string;
   /** For scripts and tests, as `window.snapspace`. */
   readonly script: Record<string, unknown>;
   dispose(): void;
@@ -21,12 +23,14 @@ export interface ViewOptions {
   readonly forceCpu: boolean;
   /** Leaves the camera and the stage as they are. */
   readonly keepView?: boolean;
-  /** The first motions of the handles, if all handles of the model are among them; otherwise they are at rest. */
+  /** The first motions of the handles; those that are not among them are at rest. */
   readonly motions?: Motions;
   /** Poses that take part at first, by name, and their weights; if the model has them all. */
   readonly blend?: { readonly names: readonly string[]; readonly weights: readonly number[] };
   /** Goes to the view in which handles are chosen on the model's body; missing without a server. */
   readonly choose?: () => void;
+  /** Whether a file was opened in the page of another model: the address stays that of the page's own model. */
+  readonly isFromFile?: boolean;
   /** Gives the user a page in one file with the model and the content of a timeline; missing without a server. */
   readonly page?: (timeline: string | null) => Promise<void>;
   /** Content of a timeline file, in place of that of the model. */

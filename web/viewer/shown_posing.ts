@@ -62,6 +62,7 @@ export async function shownPosing(
     scene.gizmo.update();
     update();
   };
+  posing.beforeEdit = () => (playing.isOn = false);
   posing.onSolved = ({ milliseconds }) => {
     scene.follow();
     shown.onSolved({ handles: shown.handles, milliseconds });
@@ -96,10 +97,7 @@ export async function shownPosing(
     setWeights: () => {
       throw new Error("The model has handles, no poses.");
     },
-    reset: () => {
-      playing.isOn = false;
-      posing.reset();
-    },
+    reset: () => posing.reset(),
     play: (on) => {
       playing.isOn = on;
       if (!on) posing.commit();
