@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from numbers import Integral
 from typing import Literal, Protocol, runtime_checkable
 
 import numpy as np
@@ -15,6 +16,7 @@ ANYWHERE: tuple[Method, ...] = ("random", "sobol", "grid")
 METHODS: tuple[Method, ...] = (*ANYWHERE, "blends")
 
 
+@runtime_checkable
 class Domain(Protocol):
     """What a parameter domain must offer: a map from the unit cube.
 
@@ -85,8 +87,14 @@ def sample(
     Raises
     ------
     ValueError
-        For a count below 1, a negative seed, an unknown method, or blends in a domain without them.
+        For something else than a domain, a count that is not a whole number from 1 on, a negative
+        seed, an unknown method, or blends in a domain without them.
     """
+    if not isinstance(domain, Domain):
+        cure = "give problem.domain" if hasattr(domain, "domain") else "give a HandleBox or Simplex"
+        raise ValueError(f"sample: the domain is a {type(domain).__name__}; {cure}")
+    if not isinstance(count, Integral):
+        raise ValueError(f"sample: the number of samples is {count!r}, but must be a whole number")
     if count < 1:
         raise ValueError(f"sample: the number of samples is {count}, but must be at least 1")
     if seed < 0:

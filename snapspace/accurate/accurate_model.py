@@ -13,6 +13,7 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import Checkpoint, Progress, Snapshots, SolverOptions
+from .checks import check_problem
 from .model_search import Model, ModelSearch, Tell
 from .search_options import SearchOptions
 from .solving import Solving
@@ -169,11 +170,13 @@ def accurate_model(
     Raises
     ------
     ValueError
-        For a target or budget that is not positive, fewer than 20 samples, or no usable ones. Also
-        for a `start` of another mesh, without training shapes, or with other changes than handles.
+        For something else than a problem, a target or budget that is not positive, fewer than 20
+        samples, or no usable ones. Also for a `start` of another mesh, without training shapes, or
+        with other changes than handles.
     Interrupted
         On Ctrl-C, after the finished samples have been saved.
     """
+    check_problem(problem)
     search = ModelSearch(
         problem,
         SearchOptions(

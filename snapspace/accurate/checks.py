@@ -4,8 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..problem import InterpolationProblem, PosingProblem
+
 #: Fewest samples, and fewest held-out ones among them.
 FEWEST_SAMPLES, FEWEST_HELD_OUT = 20, 4
+
+
+def check_problem(problem: object) -> None:
+    """Raises ValueError for anything but a problem, such as a mesh."""
+    if not isinstance(problem, (PosingProblem, InterpolationProblem)):
+        raise ValueError(
+            f"accurate_model: got a {type(problem).__name__}, but needs a problem, such as "
+            "PosingProblem(mesh, handles, domain=box) or InterpolationProblem(poses)"
+        )
 
 
 def check_target(target_error: float) -> None:

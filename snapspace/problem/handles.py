@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,10 +20,25 @@ class Handle:
 
     name : str
     vertices : (k,) int32, sorted and unique
+    mask_length : number of entries of the boolean mask that it was given as, None for indices
     """
 
     name: str
     vertices: IndexArray
+    mask_length: int | None = field(default=None, compare=False, repr=False)
+
+    def check_in(self, count: int, *, what: str = "mesh") -> None:
+        """ValueError unless it fits a mesh, or what else is named, of `count` vertices."""
+        if self.mask_length not in (None, count):
+            raise ValueError(
+                f"handle '{self.name}': the mask has {self.mask_length} entries, but the {what} "
+                f"has {count} vertices"
+            )
+        if self.vertices[-1] >= count:
+            raise ValueError(
+                f"handle '{self.name}' has vertex index {self.vertices[-1]}, but the {what} has "
+                f"{count} vertices"
+            )
 
 
 class Handles:
@@ -31,7 +47,8 @@ class Handles:
     Parameters
     ----------
     vertices : sequence of array_like
-        For each handle, vertex indices or a boolean mask over all vertices.
+        For each handle, vertex indices or a boolean mask over all vertices of the mesh. Its length
+        is checked where handles and mesh meet, as in `PosingProblem`.
     names : sequence of str, optional
         One per handle, unique. Default: handle_0, handle_1, ...
 
@@ -56,10 +73,7 @@ class Handles:
         if names is None:
             names = [f"handle_{i}" for i in range(len(vertices))]
         check_names(names, len(vertices), who="Handles", what=f"{len(vertices)} handles")
-        self._handles = tuple(
-            Handle(name, _as_indices(name, which))
-            for name, which in zip(names, vertices, strict=True)
-        )
+        self._handles = tuple(map(_handle, names, vertices))
         if len(self._handles) < 2:
             raise ValueError(
                 f"Handles: got {len(self._handles)}, but posing needs a fixed handle and "
@@ -87,13 +101,13 @@ class Handles:
 
     def adding(self, name: str, vertices: ArrayLike) -> Handles:
         """These handles and, after them, one more; ValueError as for the constructor."""
-        return Handles([*(handle.vertices for handle in self), vertices], names=[*self.names, name])
+        return _handles([*self, _handle(name, vertices)])
 
     def replacing(self, name: str, vertices: ArrayLike) -> Handles:
         """These handles with other vertices for one; ValueError if there is no such handle."""
-        chosen: list[ArrayLike] = [handle.vertices for handle in self]
-        chosen[self.index(name)] = vertices
-        return Handles(chosen, names=self.names)
+        chosen = list(self)
+        chosen[self.index(name)] = _handle(name, vertices)
+        return _handles(chosen)
 
     def without(self, name: str) -> Handles:
         """All handles except one; ValueError if there is no such one, or one would be left.
@@ -139,13 +153,20 @@ class Handles:
 
 
 def _handles(chosen: Sequence[Handle]) -> Handles:
-    return Handles([h.vertices for h in chosen], names=[h.name for h in chosen])
+    handles = Handles([h.vertices for h in chosen], names=[h.name for h in chosen])
+    pairs = zip(handles, chosen, strict=True)
+    handles._handles = tuple(replace(h, mask_length=old.mask_length) for h, old in pairs)
+    return handles
 
 
-def _as_indices(name: str, which: ArrayLike) -> IndexArray:
+def _handle(name: str, which: ArrayLike) -> Handle:
     array = np.asarray(which)
-    if array.dtype == bool:
-        array = np.flatnonzero(array)
+    if array.dtype == bool and array.ndim == 1:
+        return Handle(name, _as_indices(name, np.flatnonzero(array)), mask_length=len(array))
+    return Handle(name, _as_indices(name, array))
+
+
+def _as_indices(name: str, array: NDArray[Any]) -> IndexArray:
     if array.size == 0:
         raise ValueError(
             f"Handles: '{name}' has no vertices; widen its boxes or spheres, or list vertices"

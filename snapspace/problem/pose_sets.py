@@ -18,9 +18,18 @@ FloatArray = NDArray[np.float64]
 def as_poses(
     poses: Poses | ShellPoses | Sequence[TetMesh] | Sequence[ShellMesh],
 ) -> Poses | ShellPoses:
-    """Poses as they are, or made of meshes; ValueError for a mixture of tets and shells."""
+    """Poses as they are, or made of meshes.
+
+    ValueError for a mixture of tets and shells, or a pose that is neither.
+    """
     if isinstance(poses, (Poses, ShellPoses)):
         return poses
+    for place, mesh in enumerate(poses):
+        if not isinstance(mesh, (TetMesh, ShellMesh)):
+            raise ValueError(
+                f"InterpolationProblem: pose {place} is a {type(mesh).__name__}, but each must be "
+                "a TetMesh or ShellMesh, such as TetMesh(vertices, tets)"
+            )
     shells = [mesh for mesh in poses if isinstance(mesh, ShellMesh)]
     tets = [mesh for mesh in poses if isinstance(mesh, TetMesh)]
     if shells and tets:

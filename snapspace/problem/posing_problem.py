@@ -15,6 +15,7 @@ from scipy.sparse import csr_array
 
 from .. import _core as core
 from ..energy import ElasticEnergy, ShellMaterial
+from ..input_error import located
 from ..interruptible import run_abandonable
 from ..material import Material, checked_material, default_material
 from ..mesh import Body, ShellMesh, mass_matrix
@@ -56,8 +57,9 @@ class PosingProblem:
     ValueError
         For a stiffness that is not positive, a material that is not one of `MATERIALS`, has moduli
         for another number of tets or no form for shells, a handle with a vertex that the mesh does
-        not have (the message names it), or handles that all lie on one line, about which the shape
-        could turn. Every component of a shell must be held by itself.
+        not have or made of a mask of another length (the message names it), or handles that all lie
+        on one line, about which the shape could turn. Every component of a shell must be held by
+        itself.
     """
 
     def __init__(
@@ -80,12 +82,9 @@ class PosingProblem:
         self.domain = replace(domain, moving=len(handles) - 1)
         if not (math.isfinite(self.stiffness) and self.stiffness > 0):
             raise ValueError(f"PosingProblem: stiffness is {stiffness}, but it must be positive")
-        for handle in handles:
-            if handle.vertices[-1] >= len(mesh.vertices):
-                raise ValueError(
-                    f"PosingProblem: handle '{handle.name}' has vertex index "
-                    f"{handle.vertices[-1]}, but the mesh has {len(mesh.vertices)} vertices"
-                )
+        with located("PosingProblem"):
+            for handle in handles:
+                handle.check_in(len(mesh.vertices))
         check_held(mesh, self.pinned, who="PosingProblem")
         self.energy = ElasticEnergy(mesh, self.material)
 

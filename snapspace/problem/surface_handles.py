@@ -40,7 +40,8 @@ def handles_in_tets(handles: Handles, mesh: Body, surface: EmbeddedSurface) -> H
     Raises
     ------
     ValueError
-        For an index out of range, or a handle too small for the tets.
+        For an index out of range, a mask of another length than the surface's vertices, or a
+        handle too small for the tets.
 
     Examples
     --------
@@ -90,11 +91,7 @@ class SurfaceHandles:
         count = len(self._surface.corners)
         owners = np.full(count, -1)
         for one, handle in enumerate(handles):
-            if handle.vertices[-1] >= count:
-                raise ValueError(
-                    f"handle '{handle.name}' has vertex index {handle.vertices[-1]}, but the "
-                    f"surface has {count} vertices"
-                )
+            handle.check_in(count, what="surface")
             owners[handle.vertices] = one
         return owners
 

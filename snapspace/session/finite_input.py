@@ -16,8 +16,8 @@ _PACKAGE = __name__.partition(".")[0]
 
 def finite(values: ArrayLike, shape: tuple[int, ...], name: str) -> FloatArray:
     """The values as an array; ValueError for another shape or, with its index, a bad entry."""
-    array = np.asarray(values, np.float64)
-    if array.shape != shape:
+    array = _numbers(values)
+    if array is None or array.shape != shape:
         numbers = "three numbers" if shape == (3,) else f"a {shape} matrix"
         raise ValueError(f"{name} needs {numbers}, got {values!r}".replace("\n", ""))
     bad = np.argwhere(~np.isfinite(array))
@@ -26,6 +26,14 @@ def finite(values: ArrayLike, shape: tuple[int, ...], name: str) -> FloatArray:
         entry = ", ".join(map(str, place))
         raise ValueError(f"{name} has [{entry}] = {array[place]}, but it must be finite")
     return array
+
+
+def _numbers(values: ArrayLike) -> FloatArray | None:
+    """The values as an array, None for text, rows of unequal lengths and other objects."""
+    try:
+        return np.asarray(values, np.float64)
+    except (TypeError, ValueError):
+        return None
 
 
 def radians(euler: ArrayLike, name: str) -> FloatArray:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..problem import affine_offset
 from .finite_input import finite
-from .given_rotation import Turn, given_rotation, is_rotation
+from .given_rotation import Turn, given_turn, is_rotation
 
 FloatArray = NDArray[np.float64]
 #: A rotation about the centroid, and a translation.
@@ -43,13 +43,19 @@ def wanted_maps(
 ) -> dict[str, FloatArray]:
     """Maps (3, 4) by handle, for rotations about the handles' centers and translations.
 
-    ValueError, which names the handle, for an invalid rotation or translation; `center` rejects
-    unknown handles.
+    ValueError, which names the handle, for a motion that is not a pair, or an invalid rotation or
+    translation; `center` rejects unknown handles.
     """
+    if not isinstance(motions, Mapping):
+        raise ValueError(
+            f"{who}: the motions are a {type(motions).__name__}, but a mapping from the names of "
+            "handles to pairs (rotation, translation) is needed"
+        )
     maps = {}
-    for handle, (turn, translation) in motions.items():
+    for handle, motion in motions.items():
         about = center(handle)
-        linear = given_rotation(turn, f"{who}: euler of '{handle}'")
+        turn, translation = _pair(motion, handle, who=who)
+        linear = given_turn(turn, handle, who=who)
         shift = finite(translation, (3,), f"{who}: translation of '{handle}'")
         maps[handle] = world_map(np.column_stack([linear - np.eye(3), shift]), about)
     return maps
@@ -60,18 +66,31 @@ def given_maps(
 ) -> dict[str, FloatArray]:
     """Maps (3, 4) by handle, for rotations (3, 3) about the centers and translations (3,).
 
-    ValueError for a wrong number of motions, or one that is not finite or not rigid.
+    ValueError for a wrong number of motions, or one that is not a pair, finite or rigid.
     """
     if len(motions) != len(names):
         raise ValueError(f"put: got {len(motions)} motions, but there are {len(names)} handles")
     maps = {}
-    for name, center, (rotation, translation) in zip(names, centers, motions, strict=True):
+    for name, center, motion in zip(names, centers, motions, strict=True):
+        rotation, translation = _pair(motion, name, who="put")
         turn = finite(rotation, (3, 3), f"put: the rotation of '{name}'")
         shift = finite(translation, (3,), f"put: the translation of '{name}'")
         if not is_rotation(turn, to=1e-6):
             raise ValueError(f"put: the matrix of '{name}' is not a rotation")
         maps[name] = world_map(np.column_stack([turn - np.eye(3), shift]), center)
     return maps
+
+
+def _pair(motion: tuple[Any, Any], handle: str, *, who: str) -> tuple[Any, Any]:
+    """The motion; ValueError unless it is a pair."""
+    try:
+        turn, translation = motion
+    except (TypeError, ValueError):
+        raise ValueError(
+            f"{who}: the motion of '{handle}' must be a pair of a rotation and a translation, such "
+            f"as ((0, 0, 0), (0, 0, 0.1)), got {motion!r}".replace("\n", "")
+        ) from None
+    return turn, translation
 
 
 def relative_offsets(maps: FloatArray, centers: FloatArray) -> FloatArray:

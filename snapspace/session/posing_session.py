@@ -15,7 +15,7 @@ from .display_shapes import Vertices
 from .finite_input import finite
 from .frame_report import FrameReport
 from .given_coordinates import given_coordinates
-from .given_rotation import Turn, is_rotation
+from .given_rotation import Turn, given_rotation, is_rotation
 from .handle_maps import Motion, given_maps, motions_of, relative_offsets, wanted_maps, world_maps
 from .motion_space import MotionSpace
 from .posing_loop import posing_loop
@@ -78,8 +78,10 @@ class PosingSession(Session[PosingModel]):
         """
         if rotation is not None and euler is not None:
             raise ValueError(f"move: '{handle}' has both euler and rotation; give one of them")
-        turn = euler if rotation is None else rotation
-        return self.move_all({handle: ((0.0, 0.0, 0.0) if turn is None else turn, translation)})
+        turn: Turn = (0.0, 0.0, 0.0) if euler is None else euler
+        if rotation is not None:
+            turn = given_rotation(rotation, f"move: rotation of '{handle}'")
+        return self.move_all({handle: (turn, translation)})
 
     def move_all(self, motions: Mapping[str, Motion]) -> FrameReport:
         """Moves several handles rigidly, and solves once.

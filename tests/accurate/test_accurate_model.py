@@ -94,6 +94,13 @@ def test_a_target_must_be_positive(problem: InterpolationProblem, target: float)
         accurate_model(problem, target_error=target)
 
 
+def test_a_mesh_in_place_of_a_problem_is_refused_with_the_cure(
+    problem: InterpolationProblem,
+) -> None:
+    with pytest.raises(ValueError, match=r"accurate_model: got a TetMesh, but .* PosingProblem\("):
+        accurate_model(problem.mesh)  # type: ignore[call-overload]
+
+
 def test_some_samples_must_be_left_to_judge(problem: InterpolationProblem) -> None:
     with pytest.raises(ValueError, match="most_samples is 19, but at least 20"):
         accurate_model(problem, most_samples=19)

@@ -57,6 +57,7 @@ BAD: list[tuple[list[Any], list[Any] | None, str]] = [
     ),
     ([[0], [1.5]], ["foot", "head"], "'head' must be a list of vertex indices"),
     ([[0], [[1, 2]]], ["foot", "head"], "'head' must be a list of vertex indices"),
+    ([[0], np.eye(3, dtype=bool)], ["foot", "head"], "'head' must be a list of vertex indices"),
     ([[0], ["x"]], ["foot", "head"], "'head' must be a list of vertex indices"),
     ([[0], [1, -3]], ["foot", "head"], "'head' has the negative vertex index -3"),
     ([[0], [2**31]], ["foot", "head"], "'head' has the vertex index 2147483648, beyond 32 bits"),

@@ -44,6 +44,10 @@ BAD: list[tuple[Callable[[], Any], str]] = [
         "Poses: pose 1: has 72 vertices, but pose 0 has 81",
     ),
     (
+        lambda: InterpolationProblem([MESH, MESH.vertices]),  # type: ignore[list-item]
+        "InterpolationProblem: pose 1 is a ndarray, but each must be a TetMesh or ShellMesh",
+    ),
+    (
         lambda: InterpolationProblem(POSES, extrapolation=-0.1),
         "Simplex: extrapolation is -0.1, but it must be zero or positive",
     ),

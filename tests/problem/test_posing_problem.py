@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import pickle
 import re
 
 import numpy as np
@@ -121,6 +122,24 @@ def test_a_handle_outside_of_the_mesh_is_refused_by_name() -> None:
     message = f"handle 'head' has vertex index {n}, but the mesh has {n} vertices"
     with pytest.raises(ValueError, match=message):
         PosingProblem(MESH, handles, domain=BOX)
+
+
+def test_a_mask_over_other_vertices_than_those_of_the_mesh_is_refused_by_name() -> None:
+    """For example a mask over the vertices of the surface, which are fewer."""
+    n = len(MESH.vertices)
+    feet, head = np.arange(n) < 3, np.arange(n - 7) > n - 12
+    message = f"PosingProblem: handle 'head': the mask has {n - 7} entries, but the mesh has {n} v"
+    masks = Handles([feet, head], names=["feet", "head"])
+    wrong = [
+        masks,
+        pickle.loads(pickle.dumps(masks)),
+        Handles([feet, [n - 1]], names=["feet", "tail"]).adding("head", head).without("tail"),
+        Handles([feet, [n - 1]], names=["feet", "head"]).replacing("head", head).fixing("head"),
+    ]
+    for handles in wrong:
+        with pytest.raises(ValueError, match=message):
+            PosingProblem(MESH, handles, domain=BOX)
+    PosingProblem(MESH, masks.replacing("head", np.arange(n) > n - 5), domain=BOX)
 
 
 def test_handles_on_one_line_are_refused() -> None:

@@ -48,6 +48,14 @@ def test_handles_without_enough_vertices_are_refused() -> None:
         handles_in_tets(Handles([[0, 1, 2], [99999]], names=["a", "b"]), MESH, surface)
 
 
+def test_a_mask_over_other_vertices_than_those_of_the_surface_is_refused() -> None:
+    surface, n = boundary_surface(MESH), len(MESH.vertices)
+    of_tets = Handles([np.arange(n) < 3, np.arange(n) > n - 9], names=["a", "b"])
+    message = f"handle 'a': the mask has {n} entries, but the surface has {len(surface.corners)} v"
+    with pytest.raises(ValueError, match=message):
+        handles_in_tets(of_tets, MESH, surface)
+
+
 def test_disjoint_handles_stay_disjoint_on_coarse_tets() -> None:
     """Neighbours on a fine surface may follow the same tet vertex."""
     coarse = TetMesh(

@@ -168,6 +168,7 @@ def test_a_grid_does_not_divide_axes_without_width() -> None:
     [
         ({"count": 0}, "the number of samples is 0, but must be at least 1"),
         ({"count": -5}, "the number of samples is -5, but must be at least 1"),
+        ({"count": 3.5}, "the number of samples is 3.5, but must be a whole number"),
         ({"count": 4, "seed": -1}, "the seed is -1, but must not be negative"),
         ({"count": 4, "method": "halton"}, "unknown method 'halton'; known are random, sobol, gr"),
     ],
@@ -175,3 +176,13 @@ def test_a_grid_does_not_divide_axes_without_width() -> None:
 def test_bad_arguments_are_refused(arguments: dict[str, Any], message: str) -> None:
     with pytest.raises(ValueError, match=re.escape(f"sample: {message}")):
         sample(BOX, **arguments)
+
+
+def test_a_problem_in_place_of_its_domain_is_refused_with_the_cure() -> None:
+    class Problem:
+        domain = BOX
+
+    with pytest.raises(ValueError, match=r"sample: the domain is a Problem; give problem\.domain"):
+        sample(Problem(), 3)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="the domain is a dict; give a HandleBox or Simplex"):
+        sample({}, 3)  # type: ignore[arg-type]

@@ -26,6 +26,17 @@ WRONG: list[tuple[Callable[[Session], Any], str]] = [
     (lambda s: s.move("head", euler=(0, math.nan, 0)), "euler of 'head' has [1] = nan, but it"),
     (lambda s: s.move("head", translation=[[1, 2, 3]]), "translation of 'head' needs three"),
     (lambda s: s.move("head", translation=(0, 0, math.inf)), "of 'head' has [2] = inf, but it"),
+    (lambda s: s.move("head", euler="abc"), "euler of 'head' needs three numbers, got 'abc'"),
+    (lambda s: s.move("head", euler=[[1], []]), "euler of 'head' needs three numbers, got [[1]"),
+    (
+        lambda s: s.step(0.1, {"head": (0, 0, 0)}),
+        "step: the motion of 'head' must be a pair of a rotation and a translation, such as",
+    ),
+    (
+        lambda s: s.move_all({"head": 0.5}),
+        "move: the motion of 'head' must be a pair of",
+    ),
+    (lambda s: s.step(0.1, ((0, 0, 0), (0, 0, 1))), "step: the motions are a tuple, but a mapping"),
     (lambda s: s.move_affine("head", np.eye(4)), "matrix of 'head' needs a (3, 4) matrix, got"),
     (lambda s: s.move_affine("head", NOT_FINITE), "matrix of 'head' has [1, 1] = nan, but it must"),
     (lambda s: s.move_affine("foot", STRETCH), "'foot' is the reference of all other handles and"),

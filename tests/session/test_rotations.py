@@ -40,12 +40,17 @@ def test_a_rotation_is_the_same_motion_as_its_angles(session: PosingSession, rot
     ("options", "message"),
     [
         ({"euler": EULER, "rotation": TURN}, "'head' has both euler and rotation"),
-        ({"rotation": 2 * np.eye(3)}, "'head' is a matrix that is not a rotation"),
+        (
+            {"rotation": 2 * np.eye(3)},
+            "move: rotation of 'head' is a matrix that is not",
+        ),
         ({"rotation": np.diag([1.0, 1.0, -1.0])}, "not a rotation"),
         ({"rotation": np.zeros(4)}, "the zero quaternion"),
         ({"rotation": [np.nan, 0, 0, 1]}, r"\[0\] = nan, but it must be finite"),
         ({"rotation": Rotation.from_rotvec([[0.1, 0, 0], [0, 0.2, 0]])}, "'head' is 2 rotations"),
-        ({"rotation": np.eye(2)}, "needs three numbers"),
+        ({"rotation": np.eye(2)}, r"rotation of 'head' needs a \(3, 3\) matrix, a quaternion \(x"),
+        ({"rotation": (0, 0, 0.3)}, r"rotation of 'head' needs a \(3, 3\) matrix, a quaternion"),
+        ({"rotation": [[1, 0], [0]]}, "rotation of 'head' needs a"),
     ],
 )
 def test_rotations_that_are_not_proper_are_refused(
@@ -56,3 +61,9 @@ def test_rotations_that_are_not_proper_are_refused(
     with pytest.raises(ValueError, match=message):
         session.move("head", **options)
     np.testing.assert_array_equal(session.vertices, before)
+
+
+def test_a_wrong_turn_of_several_handles_is_called_what_it_is(session: PosingSession) -> None:
+    for turn, name in ((2 * np.eye(3), "rotation"), (np.zeros(4), "rotation"), ((0, 1), "euler")):
+        with pytest.raises(ValueError, match=f"move: {name} of 'head'"):
+            session.move_all({"head": (turn, (0, 0, 0))})
