@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import hashlib
 import time
-from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-import click
 import numpy as np
 
 from ..accurate import AccurateModel, accurate_model, usual_most_samples
@@ -22,60 +20,10 @@ from ..reduction import PosingModel
 from ..snapshots import Checkpoint, SolverOptions, run_key, solver_key
 from .console import notice
 from .first_frame import check_first_frame
-from .given_options import chosen_parameters
 from .pipeline import Built, build_model, report_kept_samples, stage
 from .progress import spinner
 from .recipe import Recipe, made_by
 from .unseen import judged, unseen_record
-
-#: Options that decide samples or subspace: with any of them nothing is chosen by a target error.
-DECIDING = (
-    "samples",
-    "dimension",
-    "energy_fraction",
-    "sampling",
-    "no_scramble",
-    "solver",
-    "lumped",
-    "include_unconverged",
-)
-
-
-budget_option = click.option(
-    "--budget",
-    type=float,
-    metavar="SECONDS",
-    help="With --target-error: samples that would probably take longer are not solved. The first "
-    "96 (44 for blends) always are. The model then depends on the machine's speed.",
-)
-
-
-def decided_by_hand(*, exact: bool = False, others: Sequence[str] = ()) -> bool:
-    """Whether an option or an exact energy, not the target error, decides samples and subspace.
-
-    Parameters
-    ----------
-    exact : whether the material has an exact reduced energy
-    others : names of deciding options of the running command, besides `DECIDING`
-
-    Raises
-    ------
-    ValueError
-        If --target-error or --budget is given as well, which would have no effect.
-    """
-    given = {option.name: option.opts[0] for option in chosen_parameters()}
-    deciding = [given[name] for name in (*DECIDING, *others) if name in given]
-    chooses = next(
-        (given[name] for name in ("target_error", "budget", "from_file") if name in given), None
-    )
-    if chooses and deciding:
-        raise ValueError(f"{chooses} chooses what {deciding[0]} decides; leave one of them out")
-    if chooses and exact:
-        raise ValueError(
-            f"{chooses} is for materials of one minimum, not for St.Venant-Kirchhoff; give "
-            "--samples and --dimension"
-        )
-    return exact or bool(deciding)
 
 
 @dataclass(frozen=True, kw_only=True)

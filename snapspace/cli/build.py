@@ -13,7 +13,7 @@ from ..accurate import MOTIONS, check_budget, check_target
 from ..model_file import check_model_path, load
 from ..problem import is_quartic
 from ..reduction import STORED_ENERGIES, Energy, PosingModel
-from .accurate_pipeline import budget_option, chosen_build, decided_by_hand
+from .accurate_pipeline import chosen_build
 from .build_advice import build_advice
 from .choices import MOTION_SAMPLINGS, Choices, choice_options
 from .console import print_json, print_next
@@ -24,6 +24,7 @@ from .given_options import given_options
 from .options import FILE, TET_COUNT, dask_option, json_option, shell_option, threads_option
 from .problem_input import problem_input
 from .summary import print_summary
+from .target_error import MOTIONS_DECIDING, decided_by_hand, notice_decided, target_option
 
 DIMENSION = 40
 
@@ -36,17 +37,7 @@ DIMENSION = 40
 @click.option(
     "-o", "--output", type=FILE, required=True, metavar="M.snapspace", help="Model file to write."
 )
-@click.option(
-    "--target-error",
-    type=float,
-    default=MOTIONS.target,
-    show_default=True,
-    metavar="SHARE",
-    help="Median error of unseen motions. Decides samples and dimension if none of --samples, "
-    "--dimension, --energy-fraction, --sampling, --energy, --tets is given, except "
-    "for stvk.",
-)
-@budget_option
+@target_option(MOTIONS.target, error="Median error of unseen motions", deciding=MOTIONS_DECIDING)
 @click.option(
     "--from",
     "from_file",
@@ -127,7 +118,7 @@ def build(
     )
     problem, source = given.problem, given.source
     quartic = is_quartic(problem)
-    by_hand = decided_by_hand(exact=quartic, others=("energy", "tets"))
+    by_hand = decided_by_hand(exact=quartic, deciding=MOTIONS_DECIDING)
     dimension = None if choices.energy_fraction else choices.dimension or DIMENSION
     choice = EnergyChoice(energy=energy, tets=tets, dimension=dimension)
     choice.check(problem, choices.samples)
@@ -140,6 +131,8 @@ def build(
     recipe = replace(recipe, energy=energy, tets=tets)
     executor = click.get_current_context().with_resource(dask_executor(dask))
     source["options"] = given_options()
+    if not quartic:
+        notice_decided(MOTIONS_DECIDING)
     make = chosen_build(
         problem,
         recipe,

@@ -14,7 +14,8 @@ from ..sampling import ANYWHERE, METHODS, BlendDomain, Domain, Method, sample
 from ..snapshots import PROJECTIONS, SOLVERS, SolverOptions
 from ..snapshots.solver_options import Solver
 from .console import notice
-from .options import ITERATION_COUNT, MODE_COUNT, SAMPLE_COUNT, SEED_NUMBER
+from .given_options import chosen_parameters
+from .options import ITERATION_COUNT, MODE_COUNT, SAMPLE_COUNT, SEED_NUMBER, SHARE_OR_NONE
 from .recipe import Recipe
 from .samples import ChosenSamples, GivenSamples, Samples, sampling_record
 
@@ -46,10 +47,11 @@ class Choices:
     include_unconverged: bool
 
     def solver_options(self, *, tolerance: float | None = None) -> SolverOptions:
-        """The solver's options; ValueError if one is out of range.
+        """The solver's options; ValueError if one is out of range or of the other solver.
 
         `tolerance` is used if the user gave neither it nor settling; None leaves it to the problem.
         """
+        self._check_solver()
         neither = self.tolerance is None and self.settling is None
         return SolverOptions(
             solver=self.solver,
@@ -59,6 +61,18 @@ class Choices:
             projection=self.projection,
             clamp=self.clamp,
         )
+
+    def _check_solver(self) -> None:
+        """ValueError for an option that cannot act with the chosen solver."""
+        given = {option.opts[0] for option in chosen_parameters()}
+        idle = {"--settling"} if self.solver == "newton" else {"--projection", "--clamp"}
+        for word in sorted(given & idle):
+            solver = "fast" if word == "--settling" else "newton"
+            raise ValueError(f"{word} is for --solver {solver}; leave it out, or change the solver")
+        if "--clamp" in given and self.projection not in (None, "stretches"):
+            raise ValueError(
+                f"--clamp is for --projection stretches, not {self.projection}; leave it out"
+            )
 
     def recipe(
         self,
@@ -104,6 +118,8 @@ class Choices:
         return "blends" if many else "sobol"
 
     def _samples(self, domain: Domain, method: Sampling, dimension: int) -> Samples:
+        if self.no_scramble and method not in ("sobol", "blends"):
+            raise ValueError(f"--no-scramble is for Sobol samples, not for --sampling {method}")
         if method != "greedy":
             parameters = sample(
                 domain,
@@ -113,8 +129,6 @@ class Choices:
                 scramble=not self.no_scramble,
             )
             return GivenSamples(parameters)
-        if self.no_scramble:
-            raise ValueError("--no-scramble is for Sobol samples, not for --sampling greedy")
         return ChosenSamples(
             count=self.samples, seed=self.seed, dimension=self.dimension or dimension
         )
@@ -200,7 +214,7 @@ def _options(
         ),
         click.option(
             "--settling",
-            type=float,
+            type=SHARE_OR_NONE,
             help="Converged if 8 directions as long as the last 4 together are below this share of "
             "the displacement [default: 0.01 for an exact energy of posing without --tolerance, "
             "else 0: never].",

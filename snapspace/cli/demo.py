@@ -21,7 +21,7 @@ from ..reduction import PosingModel
 from ..sampling import sample
 from ..snapshots import SolverOptions
 from ..validation import validate
-from .accurate_pipeline import chosen_build, decided_by_hand
+from .accurate_pipeline import chosen_build
 from .build_advice import build_advice
 from .console import notice, print_json, print_next
 from .demo_creature import POSE_OF_OBJ, PROBLEM, contact_sheet, posed_shapes
@@ -31,6 +31,7 @@ from .progress import sample_progress, spinner
 from .recipe import Recipe, check_dimension
 from .samples import GivenSamples, sampling_record
 from .summary import print_summary
+from .target_error import decided_by_hand
 from .units import in_time
 from .validation_tables import print_validation
 

@@ -17,6 +17,17 @@ from .progress import spinner
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
+def edge_length_option(*, default: str) -> Callable[[Command], Command]:
+    """Adds --edge-length, None for the default that the help names."""
+    return click.option(
+        "--edge-length",
+        type=click.FloatRange(min=0, max=0.5, min_open=True),
+        metavar="SHARE",
+        help="Edge length of the tets that fill a surface, relative to its diagonal "
+        f"[default: {default}].",
+    )
+
+
 def filling_options(command: Command) -> Command:
     """Adds --edge-length and --exact."""
     for option in (
@@ -26,13 +37,7 @@ def filling_options(command: Command) -> Command:
             help="Fill surfaces with fTetWild, which keeps sharp edges but takes up to some "
             "minutes, not seconds.",
         ),
-        click.option(
-            "--edge-length",
-            type=click.FloatRange(min=0, max=0.5, min_open=True),
-            metavar="SHARE",
-            help="Edge length of the tets that fill a surface, relative to its diagonal "
-            "[default: 0.025, with --exact 0.02].",
-        ),
+        edge_length_option(default="0.025, with --exact 0.02"),
     ):
         command = option(command)
     return command

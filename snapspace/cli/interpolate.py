@@ -19,7 +19,7 @@ from ..fitting import DEVIATION, PoseFit, check_deviation
 from ..mesh import write_tets
 from ..problem import InterpolationProblem, Poses, Simplex
 from ..registration import SCALE_POLICIES, ScalePolicy
-from .accurate_pipeline import budget_option, chosen_build, decided_by_hand
+from .accurate_pipeline import chosen_build
 from .blend_material import blend_material, material_options
 from .build import check_output
 from .build_advice import Suggestions, build_advice
@@ -27,12 +27,14 @@ from .choices import WEIGHT_SAMPLINGS, Choices, choice_options
 from .console import console, notice, print_json, print_next
 from .dask_cluster import dask_executor
 from .files import make_folder
+from .filling_options import edge_length_option
 from .fit_cache import FitCache
 from .given_options import given_options
-from .options import FILE, TET_COUNT, dask_option, json_option, shell_option, threads_option
+from .options import FILE, SHARE, TET_COUNT, dask_option, json_option, shell_option, threads_option
 from .pose_files import PoseOptions, PoseSet, read_poses
 from .printable import printable
 from .summary import print_summary
+from .target_error import BLENDS_DECIDING, decided_by_hand, notice_decided, target_option
 
 SAMPLES, DIMENSION = 40, 30
 
@@ -49,15 +51,10 @@ SAMPLES, DIMENSION = 40, 30
     help="Tet mesh of the first surface: it begins with the surface's vertices, or encloses it "
     "[default: the surface is filled].",
 )
-@click.option(
-    "--edge-length",
-    type=float,
-    metavar="SHARE",
-    help="Edge length of the tets that fill the surface, relative to the diagonal.",
-)
+@edge_length_option(default="0.02")
 @click.option(
     "--deviation",
-    type=float,
+    type=SHARE,
     default=DEVIATION,
     show_default=True,
     help="Rms distance at which surface fits end, relative to the diagonal; a larger one is "
@@ -86,16 +83,7 @@ SAMPLES, DIMENSION = 40, 30
     help="Sample a simplex that is larger by this share.",
 )
 @material_options
-@click.option(
-    "--target-error",
-    type=float,
-    default=BLENDS.target,
-    show_default=True,
-    metavar="SHARE",
-    help="Mean error of unseen blends. Decides samples and dimension if none of --samples, "
-    "--dimension, --energy-fraction, --sampling, --extrapolation, "
-    "--cubature-tets is given, except for stvk.",
-)
+@target_option(BLENDS.target, error="Mean error of unseen blends", deciding=BLENDS_DECIDING)
 @click.option(
     "--cubature-tets",
     type=TET_COUNT,
@@ -103,7 +91,6 @@ SAMPLES, DIMENSION = 40, 30
     help="Number of tets of the reduced energy, a sum over a few tets [default: 15 per mode, at "
     "most 1000; of arap with --shell 8 vertices per mode].",
 )
-@budget_option
 @choice_options(samples=SAMPLES, dimension=DIMENSION, sampling=None, samplings=WEIGHT_SAMPLINGS)
 @click.option("--repair", is_flag=True, help="Repair the mesh of --tets if it can be repaired.")
 @threads_option
@@ -169,7 +156,7 @@ def interpolate(
             "--cubature-tets is for materials whose reduced energy is a sum over a few tets, but "
             "that of stvk is exact; leave it out"
         )
-    by_hand = decided_by_hand(exact=exact, others=("extrapolation", "cubature_tets"))
+    by_hand = decided_by_hand(exact=exact, deciding=BLENDS_DECIDING)
     if not exact and choices.samples < FEWEST_BLENDS:
         raise ValueError(
             f"the energy is a cubature, which needs at least {FEWEST_BLENDS} samples, but there is "
@@ -207,6 +194,8 @@ def interpolate(
         "pose_seconds": pose_set.seconds,
         "options": given_options(),
     }
+    if not exact:
+        notice_decided(BLENDS_DECIDING)
     build = chosen_build(
         problem,
         recipe,

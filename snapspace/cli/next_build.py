@@ -12,14 +12,14 @@ from ..accurate import plan_of
 from ..problem import is_quartic
 from ..reduction import InterpolationModel, PosingModel
 from ..validation import NextOption
-from .accurate_pipeline import DECIDING
 from .given_options import as_words
+from .target_error import MOTIONS_DECIDING, option_word
 
 Model = PosingModel | InterpolationModel
 
 #: The wanted error, relative to the current one.
 BETTER = 0.5
-_DECIDING = {f"--{name.replace('_', '-')}" for name in (*DECIDING, "energy", "tets")}
+_DECIDING = set(map(option_word, MOTIONS_DECIDING))
 
 
 def next_build(

@@ -20,6 +20,9 @@ MODE_COUNT = click.IntRange(1, 10_000)
 TET_COUNT = click.IntRange(1, 2**31 - 1)
 ITERATION_COUNT = click.IntRange(1, 2**31 - 1)
 THREAD_COUNT = click.IntRange(1, 1024)
+# Shares, such as errors relative to a displacement; of one or more they would mean nothing.
+SHARE = click.FloatRange(0, 1, min_open=True, max_open=True)
+SHARE_OR_NONE = click.FloatRange(0, 1, max_open=True)
 SEED_NUMBER = click.IntRange(0, 2**63 - 1)
 
 

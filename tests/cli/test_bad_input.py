@@ -101,7 +101,32 @@ BUILDS: dict[str, tuple[Case, str]] = {
     "energy fraction": (lambda f: build(f, "--energy-fraction", 1.5), "energy fraction is 1.5"),
     "tolerance": (lambda f: build(f, "--tolerance", 0), "tolerance is 0"),
     "tolerance nan": (lambda f: build(f, "--tolerance", "nan"), "tolerance is nan"),
-    "clamp": (lambda f: build(f, "--clamp", 2), "clamp is 2"),
+    "clamp": (lambda f: build(f, "--solver", "newton", "--clamp", 2), "clamp is 2"),
+    "projection without newton": (
+        lambda f: build(f, "--projection", "clamp"),
+        "--projection is for --solver newton; leave it out, or change the solver",
+    ),
+    "clamp without newton": (lambda f: build(f, "--clamp", 0.5), "--clamp is for --solver newton"),
+    "clamp of another projection": (
+        lambda f: build(f, "--solver", "newton", "--projection", "absolute", "--clamp", 0.5),
+        "--clamp is for --projection stretches, not absolute",
+    ),
+    "settling with newton": (
+        lambda f: build(f, "--solver", "newton", "--settling", 0.1),
+        "--settling is for --solver fast",
+    ),
+    "settling": (
+        lambda f: build(f, "--settling", 2),
+        "'--settling': 2.0 is not in the range 0<=x<1",
+    ),
+    "edge length of tets": (
+        lambda f: build(f, "--edge-length", 0.1),
+        "--edge-length is for filling a surface with tets, but the mesh of the problem has tets",
+    ),
+    "edge length of given tets": (
+        lambda f: build(f, f / "bar.msh", "--edge-length", 0.1),
+        "bar.msh has tets already; leave it out",
+    ),
     "samples": (
         lambda f: build(f, "--samples", 0),
         "'--samples': 0 is not in the range 1<=x<=1000000",

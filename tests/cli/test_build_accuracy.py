@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 
 from snapspace import load
+from snapspace.cli.target_error import BLENDS_DECIDING, MOTIONS_DECIDING
 
 from .conftest import Run
-from .files import write_problem
+from .files import write_problem, write_tet_poses
 
 
 def neo_hookean(folder: Path) -> Path:
@@ -59,6 +60,32 @@ def test_explicit_options_win(run: Run, tmp_path: Path, words: tuple[object, ...
     assert load(path).dimension == 6
 
 
+@pytest.mark.parametrize("command", ["build", "interpolate"])
+def test_the_help_names_all_options_that_decide_in_place_of_the_target(
+    run: Run, command: str
+) -> None:
+    deciding = {"build": MOTIONS_DECIDING, "interpolate": BLENDS_DECIDING}[command]
+    words = "".join(run(command, "--help").out.split())
+    listed = ",".join("--" + name.replace("_", "-") for name in deciding)
+    assert f"ifnoneof{listed}isgiven" in words
+    for name in ("--solver", "--lumped", "--no-scramble", "--include-unconverged"):
+        assert name in listed
+
+
+def test_options_that_decide_in_place_of_the_target_are_named(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "m.snapspace"
+    words = ("--lumped", "--samples", 24, "--dimension", 6)
+    result = run("build", "--problem", neo_hookean(tmp_path), *words, "-o", path)
+    assert (
+        "notice: --samples, --dimension, --lumped decide in place of --target-error, which does "
+        "not apply" in result.err
+    )
+    other = run("interpolate", *write_tet_poses(tmp_path), "--lumped", "-o", path)
+    assert "notice: --lumped decides in place of --target-error" in other.err
+    without = run("build", "--problem", neo_hookean(tmp_path), "--target-error", 0.05, "-o", path)
+    assert "in place of" not in without.err
+
+
 def test_a_budget_ends_it_early_and_says_so(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "m.snapspace"
     words = ("--target-error", 1e-6, "--budget", 0.01)
@@ -72,7 +99,9 @@ def test_a_budget_ends_it_early_and_says_so(run: Run, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--target-error", 0), "must be positive and finite"),
+        (("--target-error", 0), "'--target-error': 0.0 is not in the range 0<x<1"),
+        (("--target-error", 2), "'--target-error': 2.0 is not in the range 0<x<1"),
+        (("--target-error", "nan"), "must be positive and finite"),
         (
             ("--target-error", 0.01, "--samples", 24),
             "--target-error chooses what --samples decides",

@@ -68,6 +68,7 @@ def test_an_interrupted_greedy_build_resumes_to_the_same_model(
     ("words", "message"),
     [
         (("--sampling", "greedy", "--no-scramble"), "--no-scramble is for Sobol samples"),
+        (("--sampling", "random", "--no-scramble"), "--no-scramble is for Sobol samples, not for"),
     ],
 )
 def test_choices_that_do_not_fit_are_refused_before_the_work(

@@ -164,9 +164,9 @@ CASES: dict[str, tuple[Case, str]] = {
     "no extent": (without_extent, "half of the edges of pose 1 have length zero"),
     "edge length": (
         lambda f: [*write_surface_poses(f), *SMALL, "--edge-length", 7],
-        "edge_length is 7.0, but must be positive and at most 1",
+        "'--edge-length': 7.0 is not in the range 0<x<=0.5",
     ),
-    "deviation": (lambda f: surfaces(f, "--deviation", 0), "deviation is 0.0, but it must be posi"),
+    "deviation": (lambda f: surfaces(f, "--deviation", 0), "'--deviation': 0.0 is not in the ran"),
     "deviation nan": (lambda f: surfaces(f, "--deviation", "nan"), "deviation is nan"),
     "scale": (lambda f: tets(f, "--scale", "big"), "'--scale': 'big' is not one of 'auto', 'match"),
     "mu": (lambda f: tets(f, "--mu", -1), "mu is -1.0, but it must be positive"),

@@ -23,15 +23,16 @@ from .files import (
 SMALL = ["--samples", 4, "--dimension", 3]
 
 OUT_OF_RANGE: dict[str, tuple[list[object], str]] = {
-    "deviation": (["--deviation", -1], "deviation is -1.0, but it must be positive"),
-    "deviation inf": (["--deviation", "inf"], "deviation is inf, but it must be positive"),
+    "deviation": (["--deviation", -1], "'--deviation': -1.0 is not in the range 0<x<1"),
+    "deviation of 3": (["--deviation", 3], "'--deviation': 3.0 is not in the range 0<x<1"),
+    "deviation nan": (["--deviation", "nan"], "deviation is nan, but it must be positive"),
     "mu": (["--mu", -1], "mu is -1.0, but it must be positive"),
     "lam": (["--lam", "nan"], "lam is nan"),
     "energy fraction": (["--energy-fraction", 2], "energy fraction is 2.0, but must be in (0, 1]"),
     "extrapolation": (["--extrapolation", "nan"], "extrapolation is nan"),
     "samples": (["--samples", 4, "--dimension", 9], "dimension 9 needs at least as many samples"),
     "tolerance": (["--tolerance", "nan"], "tolerance is nan, but it must be positive"),
-    "clamp": (["--clamp", 2], "clamp is 2.0, but it must be in (0, 1]"),
+    "clamp": (["--solver", "newton", "--clamp", 2], "clamp is 2.0, but it must be in (0, 1]"),
     "edge length of tets": (["--edge-length", 0.1], "--edge-length is for filling the surface"),
 }
 
