@@ -14,7 +14,7 @@ from ..problem.json_entries import within
 from ..reduction import InterpolationModel, PosingModel
 from ..timeline import Timeline, read_timeline, timeline_of
 from .console import notice, print_facts, print_json
-from .frames import check_frames_output, format_option, is_film, notice_old_frames, rate_option
+from .frames import check_frames_output, frame_options, is_film, notice_old_frames
 from .glb import write_path
 from .loading import load_leading
 from .options import FILE, json_option, leading_option, up_option
@@ -33,8 +33,7 @@ from .progress import spinner
     metavar="DIR|FILE",
     help="A folder for numbered files, a film as .gif or .mp4, or an animated mesh as .glb.",
 )
-@format_option
-@rate_option
+@frame_options(files="the folder", rate="the timeline")
 @surface_option
 @up_option
 @leading_option

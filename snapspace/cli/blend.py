@@ -26,10 +26,9 @@ from .console import notice, print_facts, print_json
 from .even_path import PathJump, even_path
 from .frames import (
     check_frames_output,
-    format_option,
     is_film,
     notice_old_frames,
-    rate_option,
+    path_options,
 )
 from .glb import write_path
 from .loading import load_interpolation
@@ -65,8 +64,7 @@ EVEN = ("shape", "weights")
     "of the first pose's surface (also .glb, .gltf), it is that file with other positions. With "
     "--path a folder, a film as .gif or .mp4, or an animated mesh as .glb.",
 )
-@format_option
-@rate_option
+@path_options
 @click.option(
     "--linear", is_flag=True, help="Also write the linear blend, as NAME-linear, for comparison."
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..cubature import element_count
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import Energy, chosen_energy, fewest_snapshots, training_tolerance
 
@@ -31,11 +32,18 @@ class EnergyChoice:
                     f"the energy is a cubature, which needs at least {fewest} samples, but there "
                     f"are {samples}; raise --samples"
                 )
+        self._check_tets(problem)
         kinds = {chosen_energy(problem, d, self.energy) for d in dimensions}
         if self.tets is not None and kinds == {"exact"}:
             raise ValueError(
                 "--tets is for a cubature, but the energy is exact; add --energy cubature"
             )
+
+    def _check_tets(self, problem: PosingProblem | InterpolationProblem) -> None:
+        most = element_count(problem)
+        if self.tets is not None and self.tets > most:
+            word = "--tets" if isinstance(problem, PosingProblem) else "--cubature-tets"
+            raise ValueError(f"{word} is {self.tets}, but the mesh has only {most}; give fewer")
 
     def tolerance(self, problem: PosingProblem) -> float | None:
         """As `training_tolerance`; for an unknown dimension that of the smallest."""

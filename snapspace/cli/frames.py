@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 
 import click
 
@@ -11,23 +13,36 @@ from ..mesh.input_path import writable_path
 from .console import notice
 from .files import ANIMATIONS, FILMS, SURFACE_OUTPUTS, TET_OUTPUTS, make_folder
 
+Command = TypeVar("Command", bound=Callable[..., object])
+
 FORMATS = tuple(
     suffix.removeprefix(".") for suffix in (*SURFACE_OUTPUTS, ".glb", ".gltf", *TET_OUTPUTS)
 )
 
-format_option = click.option(
-    "--format",
-    "kind",
-    type=click.Choice(FORMATS),
-    help="Format of the files in the folder of --path [default: that of the surface that the "
-    "model was made from, or obj].",
-)
-rate_option = click.option(
-    "--fps",
-    "frames_per_second",
-    type=click.FloatRange(1, 100),
-    help="Frames per second of a film of --path [default: 30].",
-)
+
+def frame_options(*, files: str, rate: str) -> Callable[[Command], Command]:
+    """Adds --format and --fps; `files` and `rate` say in the help what they are for."""
+
+    def add(command: Command) -> Command:
+        command = click.option(
+            "--fps",
+            "frames_per_second",
+            type=click.FloatRange(1, 100),
+            help=f"Frames per second of {rate} [default: 30].",
+        )(command)
+        return click.option(
+            "--format",
+            "kind",
+            type=click.Choice(FORMATS),
+            help=f"Format of the files in {files} [default: that of the surface that the model was "
+            "made from, or obj].",
+        )(command)
+
+    return add
+
+
+#: The same of commands with --path.
+path_options = frame_options(files="the folder of --path", rate="a film of --path")
 
 
 def is_film(output: Path | None) -> bool:

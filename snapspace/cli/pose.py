@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,9 +15,11 @@ from ..animation import write_shape
 from ..extras import need_extra
 from ..mesh.input_path import writable_path
 from ..pictures import render, save_png
+from ..problem import PosingProblem
 from ..reduction import PosingModel
+from ..session import FrameReport
 from .console import notice, print_facts, print_json
-from .frames import check_frames_output, format_option, rate_option
+from .frames import check_frames_output, path_options
 from .loading import load_posing
 from .motions import MotionCommand, as_parameters, beyond_domain, motions_in_order
 from .options import FILE, json_option, leading_option, up_option, vector_option
@@ -49,8 +52,7 @@ from .progress import spinner
     metavar="N",
     help="N shapes on the path from rest to the motions, instead of only the last one.",
 )
-@format_option
-@rate_option
+@path_options
 @surface_option
 @click.option("--png", type=FILE, metavar="FILE", help="Also a picture, with the handles tinted.")
 @up_option
@@ -100,11 +102,10 @@ def pose(
     check_own_output(model, output, kind, path=frames is not None)
     problem = model.problem
     parameters, carrier = as_parameters(problem, motions)
-    for name in beyond_domain(problem, parameters):
-        notice(f"notice: '{name}' moves farther than the samples did; the shape may be poor")
-
     if frames is not None:
         path = posed_path(model, motions, frames)
+        _check_finite(path.reports)
+        _notice_beyond(problem, parameters)
         rate = frames_per_second or 30.0
         shown_up = up or model.up
         with spinner("writing the frames"):
@@ -118,6 +119,8 @@ def pose(
     report = session.pose(parameters)
     vertices = session.vertices @ carrier[:, :3].T + carrier[:, 3]
     frame_ms = 1e3 * (time.perf_counter() - begin)
+    _check_finite([report])
+    _notice_beyond(problem, parameters)
     if not report.converged:
         notice(f"notice: the solve ended with {report.status}; the shape may be poor")
     figures: dict[str, Any] = {
@@ -140,6 +143,20 @@ def pose(
     _print_report(figures)
     if as_json:
         print_json(figures)
+
+
+def _check_finite(reports: Sequence[FrameReport]) -> None:
+    """ValueError if a motion is so large that the energy overflows: then there is no shape."""
+    if any(report.status == "not_finite" for report in reports):
+        raise ValueError(
+            "the motion is so large that the energy is not finite, so there is no shape; give a "
+            "smaller --translate"
+        )
+
+
+def _notice_beyond(problem: PosingProblem, parameters: NDArray[np.float64]) -> None:
+    for name in beyond_domain(problem, parameters):
+        notice(f"notice: '{name}' moves farther than the samples did; the shape may be poor")
 
 
 def _check_outputs(output: Path | None, png: Path | None) -> None:

@@ -80,7 +80,7 @@ def _mended(
 ) -> tuple[FloatArray, IndexArray, bool]:
     """Vertices and faces, and whether they are closed now; the error if they must be."""
     mended = mend_surface(points, triangles)
-    done = f"the surface was mended for filling: {'; '.join(mended.notes) or 'nothing helped'}"
+    done = [f"the surface was mended for filling: {'; '.join(mended.notes)}"] * bool(mended.notes)
     try:
         check_closed(mended.faces, who=error.place)
         closed = True
@@ -88,8 +88,8 @@ def _mended(
         if not leave_open:
             raise
         closed = False
-        done += f"; {left.fault.partition(':')[0]}, so inside is where the winding number says"
-    notify(f"{done}; `snapspace check` says more", MeshNotice, stacklevel=4)
+        done.append(f"{left.fault.partition(':')[0]}, so inside is where the winding number says")
+    notify(f"{'; '.join(done)}; `snapspace check` says more", MeshNotice, stacklevel=4)
     return mended.vertices, mended.faces, closed
 
 

@@ -3,6 +3,7 @@
 from .body import Body
 from .embed_surface import embed_file, embed_surface
 from .embedded_surface import EmbeddedSurface, boundary_surface
+from .file_kind import file_kind
 from .mass import (
     apply_mass,
     mass_gram,
@@ -47,6 +48,7 @@ __all__ = [
     "dihedral_angles",
     "embed_file",
     "embed_surface",
+    "file_kind",
     "mass_gram",
     "mass_inner",
     "mass_matrix",

@@ -36,9 +36,14 @@ def read_container(path: Path) -> tuple[Arrays, dict[str, str]]:
         with safe_open(path, framework="np") as file:
             arrays = {name: file.get_tensor(name) for name in file.keys()}
             return arrays, dict(file.metadata() or {})
-    except (SafetensorError, OSError, ValueError, TypeError, LookupError, AttributeError) as error:
+    except OSError as error:
         raise ValueError(
-            f"{path}: not a complete snapspace model ({error}); copy or build it again"
+            f"{path}: the model cannot be read ({error.strerror or error}); copy it again"
+        ) from None
+    except (SafetensorError, ValueError, TypeError, LookupError, AttributeError):
+        # their messages speak of the container's parts, which no user knows
+        raise ValueError(
+            f"{path}: not a complete snapspace model; copy or build it again"
         ) from None
 
 

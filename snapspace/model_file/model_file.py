@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..input_error import one_line
-from ..mesh import ShellMesh
+from ..mesh import ShellMesh, file_kind
 from ..reduction import InterpolationModel, PosingModel, ReducedModel
 from . import (
     error_estimator,
@@ -30,6 +30,8 @@ from .container import (
 )
 
 FORMAT = "snapspace-model"
+#: Of packed models, for pages and <snapspace-viewer>, in the same container.
+PACKED_FORMAT = "snapspace-page"
 VERSION = 4
 #: Versions that `load` reads. In version 1 the material was always St.Venant-Kirchhoff. Up to
 #: version 2 bases were in double precision, and up to version 3 the checksum included the timings.
@@ -97,14 +99,24 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
     Raises
     ------
     ValueError
-        If the file is missing, truncated, altered (checksum), of another kind, of a newer version
+        If the file is missing, truncated, altered (checksum), of another kind, such as a mesh or a
+        packed model, of a newer version
         or of a material that is not known, or if an array is missing, has the wrong type or size or
         a number that is not finite. The message names the file and the cure.
     """
     path = Path(path)
     if not path.is_file():
         raise ValueError(f"{path}: there is no such model file; `snapspace build` makes one")
-    arrays, header = read_container(path)
+    try:
+        arrays, header = read_container(path)
+    except ValueError:
+        _check_kind(path)
+        raise
+    if header.get("format") == PACKED_FORMAT:
+        raise ValueError(
+            f"{path}: this is a packed model for <snapspace-viewer>, which holds the surface only; "
+            "use the model that it was made from"
+        )
     if header.get("format") != FORMAT:
         raise ValueError(f"{path}: not a snapspace model; `snapspace build` makes one")
     version = header.get("version", "none")
@@ -152,6 +164,15 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
     except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError) as error:
         reason = f"no entry {error}" if isinstance(error, KeyError) else one_line(str(error))
         raise ValueError(f"{path}: the model is inconsistent ({reason}); build it again") from None
+
+
+def _check_kind(path: Path) -> None:
+    """ValueError that says what a file is that does not end in .snapspace."""
+    if path.suffix.lower() != SUFFIX:
+        raise ValueError(
+            f"{path}: this is {file_kind(path)}, but a model ({SUFFIX}) is needed; `snapspace "
+            "build` makes one of a problem, `snapspace interpolate` of poses"
+        )
 
 
 def check_model_path(path: Path) -> None:

@@ -13,6 +13,7 @@ from ..mesh import EmbeddedSurface
 from ..model_file.appearance import appearance_arrays
 from ..model_file.container import Arrays
 from ..model_file.local_rows import local_arrays
+from ..model_file.model_file import PACKED_FORMAT
 from ..reduction import (
     BlendedCubature,
     BlendedStars,
@@ -34,7 +35,7 @@ from .painted import handle_of_vertex
 from .shape_space import quantised
 
 #: Since version 2 the page takes any material, by name.
-FORMAT, VERSION = "snapspace-page", 2
+VERSION = 2
 AXES = ("x", "y", "z")
 
 FloatArray = NDArray[np.float64]
@@ -113,7 +114,7 @@ def packed(
     if "timeline" in model.provenance:  # the page saved it with the model
         about["timeline"] = model.provenance["timeline"]
     header = {
-        "format": FORMAT,
+        "format": PACKED_FORMAT,
         "version": str(VERSION),
         "kind": kind,
         "about": json.dumps(about, sort_keys=True),

@@ -14,6 +14,7 @@ from ..mesh import (
     ShellMesh,
     TetMesh,
     embed_file,
+    file_kind,
     open_surface,
     read_tets,
 )
@@ -159,11 +160,22 @@ def _load(path: Path) -> dict[str, Any]:
     except FileNotFoundError:
         raise ValueError(f"{path}: there is no such problem file") from None
     except (OSError, UnicodeDecodeError) as error:
+        _check_kind(path)
         raise ValueError(f"{path}: cannot be read as a problem file ({error})") from None
     except (ValueError, RecursionError) as error:
+        _check_kind(path)
         raise ValueError(f"{path}: not valid JSON: {error}") from None
     with within(path):
         return as_object(content, "a problem", known=_KEYS)
+
+
+def _check_kind(path: Path) -> None:
+    """ValueError that says what a file is that does not end in .json."""
+    if path.is_file() and path.suffix.lower() != ".json":
+        raise ValueError(
+            f"{path}: this is {file_kind(path)}, but a problem (.json) is needed, which names the "
+            "mesh and its handles; `snapspace view` makes one of a mesh"
+        )
 
 
 def _check_mirror(value: Any) -> None:

@@ -11,7 +11,8 @@ from ..disk.safetensors_bytes import safetensors_bytes
 from ..mesh import SurfaceFile
 from ..mesh.arrays import FloatArray, IndexArray
 from ..model_file.appearance import file_arrays
-from ..page.pack import FORMAT, VERSION
+from ..model_file.model_file import PACKED_FORMAT
+from ..page.pack import VERSION
 from .body import Body
 from .user_surface import UserSurface
 
@@ -52,7 +53,7 @@ def _packed(
 ) -> bytes:
     look, about["appearance"] = ({}, None) if source is None else file_arrays(source)
     header = {
-        "format": FORMAT,
+        "format": PACKED_FORMAT,
         "version": str(VERSION),
         "kind": "mesh",
         "about": json.dumps(about, sort_keys=True),

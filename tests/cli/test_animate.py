@@ -51,3 +51,9 @@ def test_a_wrong_timeline_is_one_line(run: Run, posing_model: PosingModel, tmp_p
     timeline = tmp_path / "a.json"
     write_timeline(timeline, Timeline("posing", (Key(0.0, {"tail": NOD["head"]}),)))
     assert "tail" in run("animate", model, timeline).error
+
+
+def test_the_help_names_only_options_that_there_are(run: Run) -> None:
+    assert "--path" not in run("animate", "--help").out
+    words = " ".join(run("blend", "--help").out.split())
+    assert "Format of the files in the folder of --path" in words

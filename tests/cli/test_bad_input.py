@@ -62,6 +62,16 @@ BUILDS: dict[str, tuple[Case, str]] = {
         lambda f: ["build", "--problem", f / "none.json", "-o", f / "new.snapspace"],
         "none.json: there is no such problem file",
     ),
+    "mesh as problem": (
+        lambda f: [
+            "build",
+            "--problem",
+            write_problem(f).with_name("bar.msh"),
+            "-o",
+            f / "m.snapspace",
+        ],
+        "bar.msh: this is a tet mesh, but a problem (.json) is needed, which names the mesh",
+    ),
     "no mesh file": (lambda f: build(f, mesh="none.msh"), "none.msh: there is no such file"),
     "no mesh argument": (lambda f: build(f, f / "none.vtu"), "none.vtu: there is no such file"),
     "unknown extension": (

@@ -83,6 +83,7 @@ def test_an_impossible_energy_is_refused_before_the_work(run: Run, tmp_path: Pat
         (("--energy", "exact"), "stable neo-Hookean is not a polynomial of degree four"),
         (("--samples", 9, "--dimension", 3), "needs at least 10 samples, but there are 9"),
         (("--samples", 9, "--energy-fraction", 0.9), "needs at least 10 samples"),
+        ((*SMALL[:4], "--tets", 193), "--tets is 193, but the mesh has only 192; give fewer"),
     ):
         result = run("build", "--problem", problem, *options, "-o", path)
         assert (result.code, message in result.error) == (2, True)

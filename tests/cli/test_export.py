@@ -61,6 +61,15 @@ def test_the_packed_model_is_what_the_page_holds(run: Run, model: Path, tmp_path
     assert figures["packed_bytes"] == out.stat().st_size
 
 
+def test_a_packed_model_is_called_what_it_is(run: Run, model: Path, tmp_path: Path) -> None:
+    out = tmp_path / "small.snapspace"
+    assert run("export", model, "--packed", out).code == 0
+    for words in (("info", out), ("pose", out), ("export", out, "--html", tmp_path / "a.html")):
+        message = run(*words).error
+        assert message.startswith(f"{out}: this is a packed model for <snapspace-viewer>")
+        assert message.endswith("use the model that it was made from")
+
+
 def test_a_model_becomes_shape_keys_of_blender(run: Run, model: Path, tmp_path: Path) -> None:
     out = tmp_path / "bar.py"
     figures = run("export", model, "--blender", out, "--targets", 3, "--json").json

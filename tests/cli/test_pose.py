@@ -149,6 +149,17 @@ def test_leading_modes(run: Run, model: Path, tmp_path: Path) -> None:
     np.testing.assert_array_equal(read_tets(tmp_path / "out.vtu").vertices, session.vertices)
 
 
+@pytest.mark.parametrize("words", [(), ("--path", 4, "--format", "obj")])
+def test_a_motion_without_a_shape_is_refused_and_no_file_written(
+    run: Run, model: Path, tmp_path: Path, words: tuple[object, ...]
+) -> None:
+    motion = ("--handle", "right", "--translate", "0,0,1e300")
+    out = tmp_path / ("frames" if words else "out.obj")
+    result = run("pose", model, *motion, *words, "-o", out)
+    assert "the motion is so large that the energy is not finite" in result.error
+    assert not list(tmp_path.rglob("*.obj"))
+
+
 def test_a_motion_beyond_the_samples_gives_a_notice(run: Run, model: Path) -> None:
     inside = run("pose", model, "--handle", "right", "--euler", "0,0,30")
     beyond = run("pose", model, "--handle", "right", "--euler", "0,0,31")
