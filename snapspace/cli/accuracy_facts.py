@@ -34,7 +34,7 @@ def _target_facts(record: dict[str, Any]) -> Facts:
     asked = f"{in_percent(accurate['target_error'])} asked"
     if step["typical"] == "median":
         figures["median"] = step["error"]
-    return [("accuracy", f"{_errors(figures, asked)}; {step['samples']} samples")]
+    return [("accuracy", f"{_errors(figures, asked)}; {step['samples']} samples solved")]
 
 
 def _errors(figures: dict[str, Any], asked: str = "") -> str:

@@ -16,6 +16,7 @@ from ..mesh import (
 )
 from ..mesh import Body as Mesh
 from ..mesh.input_path import existing_file
+from ..notice import collected_notices
 from ..page.painted import painted_vertices
 from ..problem import (
     problem_surface_file,
@@ -26,6 +27,7 @@ from ..problem import (
 from ..reduction import InterpolationModel, PosingModel, ReducedModel
 from ..stopping import check_stop
 from .body import Body, with_notices
+from .opening import Opening
 from .user_surface import UserSurface
 
 PROBLEM_SUFFIX = ".json"
@@ -98,32 +100,46 @@ def mesh_body(
         If the file cannot be read or filled, or is no surface of a shell; the message begins with
         its path.
     """
+    stage("reading")
+    return read_mesh(path, filling=filling, thickness=thickness)(Opening(stage, read))
+
+
+def read_mesh(
+    path: Path, *, filling: SurfaceFilling | None = None, thickness: float | None = None
+) -> Callable[[Opening], Body]:
+    """Reads a mesh file; what it returns makes the body, and fills a surface.
+
+    Arguments and ValueErrors are as for `mesh_body`; only filling may fail later.
+    """
     existing_file(path, known=MESH_SUFFIXES)
-    return with_notices(
-        lambda: _mesh_body(path, stage, filling, thickness, read), folder=path.parent
+    with collected_notices() as notices:
+        make = _read_mesh(path, filling, thickness)
+    return lambda opening: with_notices(
+        lambda: make(opening), folder=path.parent, earlier=tuple(notices)
     )
 
 
-def _mesh_body(
-    path: Path,
-    stage: Callable[..., None],
-    filling: SurfaceFilling | None,
-    thickness: float | None,
-    read: Callable[[UserSurface], None],
-) -> Body:
-    stage("reading")
+def _read_mesh(
+    path: Path, filling: SurfaceFilling | None, thickness: float | None
+) -> Callable[[Opening], Body]:
     if path.suffix.lower() in TET_SUFFIXES:
         if thickness is not None:
             raise ValueError(f"{path}: a shell is made of a surface, not of tets")
         folder = path.resolve().parent
-        return Body(name=path.stem, mesh=read_tets(path), file=path.resolve(), folder=folder)
+        tets = Body(name=path.stem, mesh=read_tets(path), file=path.resolve(), folder=folder)
+        return lambda _: tets
     surface = _read_surface(path)
-    if thickness is not None:
-        return surface.shell(thickness)
-    if filling is None and (shell := surface.own_shell()) is not None:
-        return shell
-    read(surface)
-    return surface.filled(filling or SurfaceFilling(), stage=stage)
+    shell = None if thickness is None else surface.shell(thickness)
+    if filling is None and shell is None:
+        shell = surface.own_shell()
+    if shell is not None:
+        return lambda _: shell
+
+    def filled(opening: Opening) -> Body:
+        opening.read(surface)
+        return surface.filled(filling or SurfaceFilling(), stage=opening.stage)
+
+    return filled
 
 
 def _read_surface(path: Path) -> UserSurface:

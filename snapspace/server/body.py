@@ -47,8 +47,12 @@ class Body:
     notices: tuple[str, ...] = ()
 
 
-def with_notices(make: Callable[[], Body], *, folder: Path | None = None) -> Body:
+def with_notices(
+    make: Callable[[], Body], *, folder: Path | None = None, earlier: Sequence[str] = ()
+) -> Body:
     """The body that `make` makes, with the notices meanwhile, each once and without the folder.
+
+    Before them come the `earlier` ones.
 
     Where quick tets fail, fTetWild mends the surface again. What of the surface's own materials is
     not shown is one more notice.
@@ -58,4 +62,5 @@ def with_notices(make: Callable[[], Body], *, folder: Path | None = None) -> Bod
     if body.surface is not None and body.surface.source is not None:
         notices += appearance_notes(body.surface.source)
     place = "" if folder is None else f"{folder}{os.sep}"
-    return replace(body, notices=tuple(dict.fromkeys(text.removeprefix(place) for text in notices)))
+    texts = (text.removeprefix(place) for text in (*earlier, *notices))
+    return replace(body, notices=tuple(dict.fromkeys(texts)))

@@ -128,16 +128,19 @@ def with_choices(begun: messages.Workspace, kept: messages.Keep | None) -> messa
     return replace(begun, **chosen)
 
 
-def in_another_form(
-    kept: messages.Keep, thickness: float | None, given: Material | None
-) -> messages.Keep:
-    """The choices for a body that becomes a shell of a thickness, or with None a solid.
-
-    Parameters
-    ----------
-    given : Material or None
-        That of the body; None: the usual one. What is usual for the other form takes its place.
-    """
-    before, after = (usual_kind(given, shell=t is not None) for t in (kept.thickness, thickness))
-    material = after if kept.material == before else kept.material
-    return replace(kept, thickness=thickness, material=material)
+def axis_up(
+    settings: ServerSettings,
+    kept: messages.Keep | None,
+    body: Body | None,
+    surface: UserSurface | None,
+) -> str:
+    """The axis that points up: of the page's choices, else of the server's settings or the file."""
+    if kept is not None:
+        return kept.up
+    if settings.up is not None:
+        return settings.up
+    if body is not None:
+        return body.up or "z"
+    if surface is not None:
+        return surface.up or surface.source.up
+    return "z" if settings.model is None else settings.model.up

@@ -112,7 +112,8 @@ class Model:
 
     number : increases from model to model; it is part of the address
     address : address of the packed model, valid until there are two newer ones
-    dimension, samples : dimension and number of samples of this model
+    dimension, samples : dimension of this model, and number of samples that it is made of and
+        judged by, also those of a model that it started from
     error : median relative error at motions not used for training; null if not known yet
     seconds : time since the computation began
     kept : the points of an `Extend`, which are handles of this model

@@ -72,10 +72,18 @@ class Publishing:
                 number=number,
                 address=self.address(number),
                 dimension=model.dimension,
-                samples=len(growth.snapshots),
+                samples=_sample_count(growth),
                 error=None if growth.step is None else growth.step.error,
                 final=growth.final,
                 seconds=seconds,
                 kept=self.kept,
             )
         )
+
+
+def _sample_count(growth: Growth) -> int:
+    """Samples that the model is made of, also those of a model that it started from, or judged by.
+
+    `growth.snapshots` has only those that were solved for it.
+    """
+    return len(growth.model.training_parameters) + int(growth.held_out.sum())

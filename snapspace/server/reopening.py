@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from ..filling import SurfaceFilling
+from ..material import Material
+from . import messages
 from .body import Body, with_notices
+from .materials import usual_kind
 from .opening import Opening
 from .user_surface import UserSurface
 
@@ -44,3 +48,18 @@ def surface_of(body: Body) -> UserSurface:
         mirror=body.mirror,
         material=material,
     )
+
+
+def in_another_form(
+    kept: messages.Keep, thickness: float | None, given: Material | None
+) -> messages.Keep:
+    """The choices for a body that becomes a shell of a thickness, or with None a solid.
+
+    Parameters
+    ----------
+    given : Material or None
+        That of the body; None: the usual one. What is usual for the other form takes its place.
+    """
+    before, after = (usual_kind(given, shell=t is not None) for t in (kept.thickness, thickness))
+    material = after if kept.material == before else kept.material
+    return replace(kept, thickness=thickness, material=material)

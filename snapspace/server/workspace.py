@@ -16,7 +16,7 @@ from .bodies import model_body
 from .body import Body
 from .body_session import BodySession
 from .exports import Exports
-from .first_workspaces import empty_workspace, in_another_form, surface_workspace, with_choices
+from .first_workspaces import axis_up, empty_workspace, surface_workspace, with_choices
 from .mesh_pack import packed_mesh
 from .models import Models
 from .opening import Opening
@@ -24,11 +24,11 @@ from .page_channel import PageChannel
 from .page_computation import page_computation
 from .reader_text import failure
 from .recorded import recorded
-from .reopening import reopening, surface_of
+from .reopening import in_another_form, reopening, surface_of
 from .reporter import Reporter
 from .settings import ServerSettings
 from .surface_check import surface_check
-from .uploaded_body import uploaded_body
+from .uploaded_body import read_upload
 from .user_surface import UserSurface
 from .workspace_jobs import WorkspaceJobs
 
@@ -47,7 +47,7 @@ class Workspace:
     def __init__(self, settings: ServerSettings, emit: Callable[..., None]) -> None:
         self.id = secrets.token_urlsafe(9)
         self._settings, self._emit = settings, PageChannel(emit)
-        self._lock = threading.Lock()  # for the calls; jobs do not take it
+        self._lock = threading.Lock()  # for the calls; of the jobs only that of an upload takes it
         self._jobs = WorkspaceJobs(self._emit, self._fail)
         self._surface: UserSurface | None = None  # while it is filled, and after that failed
         self._session: BodySession | None = None
@@ -89,12 +89,20 @@ class Workspace:
         return with_choices(now, self._draft)
 
     def upload(self, path: Path) -> None:
-        """Opens a mesh or model file in place of the current one, see `uploaded_body`."""
+        """Opens a mesh or model file in place of the current one, once it has been read."""
         with self._lock:
             if self._closed:  # the page closed during the upload
                 shutil.rmtree(path.parent, ignore_errors=True)
             else:
-                self._open(lambda to: uploaded_body(path, to, self._settings), path.stem)
+                self._jobs.read(lambda: self._take_upload(path))
+
+    def _take_upload(self, path: Path) -> None:
+        """Reads a file, in a job: if that fails, the present body, models and work stay."""
+        Reporter(self._send, 0).send("reading")
+        make = read_upload(path, self._settings)
+        with self._lock:
+            check_stop()
+            self._open(make, path.stem)
 
     def receive(self, message: messages.PageMessage) -> None:
         """Answers a message, at once or in a job."""
@@ -138,8 +146,9 @@ class Workspace:
         elif isinstance(message, messages.Compute | messages.Extend):
             self._compute(message)
         elif isinstance(message, messages.Cancel):
-            self._surface = None
-            self._jobs.end_work()
+            if not self._jobs.stop_reading():
+                self._surface = None
+                self._jobs.end_work()
             self._emit(messages.Cancelled(request=message.request))
         elif isinstance(message, messages.Save):
             self._emit(self._current_session().save(message))
@@ -280,16 +289,8 @@ class Workspace:
     @property
     def _up(self) -> str:
         """The axis of the page, else of the server's settings, else of the file."""
-        if self._draft is not None:
-            return self._draft.up
-        if self._settings.up is not None:
-            return self._settings.up
-        session, model = self._session, self._settings.model
-        if session is not None:
-            return session.body.up or "z"
-        if self._surface is not None:
-            return self._surface.up or self._surface.source.up
-        return "z" if model is None else model.up
+        body = None if self._session is None else self._session.body
+        return axis_up(self._settings, self._draft, body, self._surface)
 
     def _address(self, what: str, number: int) -> str:
         return f"{what}/{self.id}/{number}?token={self._settings.token}"

@@ -13,7 +13,9 @@ STOP_SECONDS = 0.4
 
 
 class WorkspaceJobs:
-    """Opening a body or computing models, one at a time; beside that a check, and polishing.
+    """Opening a body or computing models, one at a time.
+
+    Beside that an upload is read, a surface checked, and shapes are polished.
 
     Parameters
     ----------
@@ -26,6 +28,7 @@ class WorkspaceJobs:
         self._failed = failed
         self._work: Job | None = None
         self._check: Job | None = None
+        self._reading: Job | None = None
         self.polishes = PolishJobs(emit, failed)
 
     @property
@@ -43,6 +46,18 @@ class WorkspaceJobs:
             self._work.stop()
             self._work.wait(STOP_SECONDS)
 
+    def read(self, work: Callable[[], None]) -> None:
+        """Begins to read an upload, in place of the last one."""
+        self.stop_reading()
+        self._reading = Job(work, failed=lambda error: self._failed(0, error))
+
+    def stop_reading(self) -> bool:
+        """Stops the reading of an upload, without waiting; returns whether there was one."""
+        was_reading = self._reading is not None and self._reading.running
+        if self._reading is not None:
+            self._reading.stop()
+        return was_reading
+
     def check(self, work: Callable[[], None], *, request: int) -> None:
         """Begins a check in place of the last one."""
         if self._check is not None:
@@ -51,10 +66,10 @@ class WorkspaceJobs:
 
     def stop(self) -> None:
         """Stops all jobs and forgets them; the garbage collector would not see their size."""
-        all_jobs = (self._work, self._check, self.polishes.stop())
+        all_jobs = (self._work, self._check, self._reading, self.polishes.stop())
         jobs = [job for job in all_jobs if job is not None]
         for job in jobs:
             job.stop()
         for job in jobs:
             job.wait(STOP_SECONDS)
-        self._work = self._check = None
+        self._work = self._check = self._reading = None

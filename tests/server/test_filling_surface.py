@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from snapspace import write_surface
+from snapspace import write_surface, write_tets
 from snapspace.filling import SurfaceFilling
 from snapspace.mesh import SurfaceFile
 from snapspace.server.bodies import mesh_body
@@ -120,9 +120,14 @@ def test_filling_can_be_cancelled_or_replaced(tmp_path: Path) -> None:
     other.write_text("no mesh")
     workspace.upload(other)
     mailbox.wait_for(Failed, request=0)
-    workspace.close()
-    assert kinds(mailbox)[-4:] == ["reading", "reading", "empty", "Failed"]
+    assert kinds(mailbox)[-2:] == ["reading", "Failed"]
+    assert workspace.mesh_content(1) is not None, "the surface stays, and is still filled"
+    other.parent.mkdir()
+    write_tets(other, BAR)
+    workspace.upload(other)
+    mailbox.wait_for(Opened, kind="mesh", name="other")
     assert workspace.mesh_content(1) is None
+    workspace.close()
 
 
 def test_a_page_that_waits_for_another_one_sees_the_surface(tmp_path: Path) -> None:

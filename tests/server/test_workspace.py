@@ -5,14 +5,14 @@ from __future__ import annotations
 import gc
 import threading
 import weakref
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from snapspace.server.body import Body
-from snapspace.server.messages import Choose, Chosen, Compute, Failed, Model
+from snapspace.server.messages import Cancel, Cancelled, Choose, Chosen, Compute, Failed, Model
 from snapspace.server.messages import Workspace as Opened
 from snapspace.server.selection import choices_of
 from snapspace.server.settings import ServerSettings
@@ -191,18 +191,18 @@ def test_a_late_end_of_an_old_mesh_does_not_hide_the_new_one(
     problem = bar_problem()
     body = Body(name="new", mesh=problem.mesh, file=None, folder=tmp_path)
 
-    def read(path: Path, **_: object) -> Body:
+    def read(path: Path, **_: object) -> Callable[[object], Body]:
         if path.stem == "slow":
             assert release.wait(PATIENCE)
             raise ValueError("too late")
-        return body
+        return lambda _: body
 
-    monkeypatch.setattr("snapspace.server.uploaded_body.mesh_body", read)
+    monkeypatch.setattr("snapspace.server.uploaded_body.read_mesh", read)
     monkeypatch.setattr("snapspace.server.workspace_jobs.STOP_SECONDS", 0.01)
     mailbox = Mailbox()
     workspace = Workspace(replace(settings, body=None), mailbox.put)
     workspace.upload(tmp_path / "a" / "slow.obj")
-    late = workspace._jobs._work
+    late = workspace._jobs._reading
     assert late is not None
     workspace.upload(tmp_path / "b" / "new.obj")
     mailbox.wait_for(Opened, kind="mesh", name="new")
@@ -210,5 +210,54 @@ def test_a_late_end_of_an_old_mesh_does_not_hide_the_new_one(
     assert late.wait(PATIENCE)
     kinds = [message.kind for message in mailbox.messages if isinstance(message, Opened)]
     workspace.close()
-    assert kinds == ["reading", "reading", "mesh"]
+    assert kinds == ["reading", "mesh"]
+    assert not any(isinstance(message, Failed) for message in mailbox.messages)
+
+
+@pytest.mark.parametrize("content", ["", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"])
+def test_a_file_that_cannot_be_read_leaves_all_work_as_it_is(
+    settings: ServerSettings, tmp_path: Path, content: str
+) -> None:
+    mailbox = Mailbox()
+    workspace = Workspace(settings, mailbox.put)
+    workspace.open()
+    mailbox.wait_for(Opened, kind="mesh")
+    workspace.receive(ORDER)
+    mailbox.wait_for(Model, final=True)
+    session, newest, begun = workspace._session, workspace._models.newest, len(mailbox.messages)
+    workspace.receive(replace(ORDER, request=2, seed=1))
+    path = tmp_path / "upload" / "wrong.obj"
+    path.parent.mkdir()
+    path.write_text(content)
+    workspace.upload(path)
+    mailbox.wait_for(Failed, request=0)
+    assert workspace._session is session is not None
+    assert newest is not None and workspace.model_content(newest.number) is not None
+    mailbox.wait_for(Model, request=2, final=True)
+    assert not any(isinstance(message, Opened) for message in mailbox.messages[begun:])
+    assert not path.parent.exists()
+    workspace.close()
+
+
+def test_cancelling_the_reading_of_a_file_leaves_the_computation(
+    settings: ServerSettings, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    release = threading.Event()
+
+    def read(path: Path, **_: object) -> Callable[[object], Body]:
+        assert release.wait(PATIENCE)
+        raise ValueError("too late")
+
+    monkeypatch.setattr("snapspace.server.uploaded_body.read_mesh", read)
+    mailbox = Mailbox()
+    workspace = Workspace(settings, mailbox.put)
+    workspace.open()
+    mailbox.wait_for(Opened, kind="mesh")
+    workspace.receive(ORDER)
+    workspace.upload(tmp_path / "a" / "slow.obj")
+    workspace.receive(Cancel(request=3))
+    mailbox.wait_for(Cancelled, request=3)
+    release.set()
+    mailbox.wait_for(Model, final=True)
+    workspace.close()
     assert not any(isinstance(message, Failed) for message in mailbox.messages)
