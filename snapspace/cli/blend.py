@@ -32,7 +32,7 @@ from .frames import (
 )
 from .glb import write_path
 from .loading import load_interpolation
-from .options import FILE, json_option, leading_option, parse_numbers, up_option
+from .options import FILE, json_option, leading_option, numbers_option, up_option
 from .own_surface import SHAPE_OUTPUTS, check_own_output, surface_option, with_surface
 from .progress import spinner
 
@@ -41,7 +41,7 @@ EVEN = ("shape", "weights")
 
 @click.command(short_help="Blend poses and write the shapes.")
 @click.argument("model_file", type=FILE, metavar="M.snapspace")
-@click.option("--weights", metavar="W,W,...", help="One weight per pose; they sum to one.")
+@numbers_option("--weights", metavar="W,W,...", text="One weight per pose; they sum to one.")
 @click.option(
     "--path",
     "frames",
@@ -76,7 +76,7 @@ EVEN = ("shape", "weights")
 @json_option
 def blend(
     model_file: Path,
-    weights: str | None,
+    weights: list[float] | None,
     frames: int | None,
     even: str | None,
     output: Path | None,
@@ -149,12 +149,14 @@ def blend(
         print_json({"dimension": model.dimension, **figures})
 
 
-def _weights(model: InterpolationModel, weights: str, *, extrapolate: bool) -> NDArray[np.float64]:
+def _weights(
+    model: InterpolationModel, numbers: list[float], *, extrapolate: bool
+) -> NDArray[np.float64]:
     """The weights (poses,) of a single shape."""
-    numbers = parse_numbers(weights)
-    if not extrapolate and min(numbers) < model.problem.domain.lowest - 1e-9:
+    lowest = model.problem.domain.lowest
+    if not extrapolate and min(numbers) < lowest - 1e-9:
         raise ValueError(
-            f"--weights {weights}: {min(numbers):g} is below {model.problem.domain.lowest:g}, the "
+            f"{weights_text(np.array(numbers))}: {min(numbers):g} is below {lowest:g}, the "
             "least weight that was sampled; --extrapolate accepts it"
         )
     return model.problem.weights(numbers, extrapolate=extrapolate)
@@ -195,7 +197,7 @@ def _write(
         return []
     suffix = f".{kind}" if kind else usual_suffix(model.surface)
     if folder:
-        notice_old_frames(output, len(shapes))
+        notice_old_frames(output, len(shapes), suffix=suffix)
     written = []
     for number, shape in enumerate(shapes):
         path = output / f"frame-{number:04d}{suffix}" if folder else output

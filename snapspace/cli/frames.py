@@ -81,11 +81,19 @@ def _check_folder(output: Path) -> None:
         )
 
 
-def notice_old_frames(folder: Path, frames: int) -> None:
-    """Prints a notice if frames of an earlier, longer path would follow these."""
-    old = [path for path in folder.glob("frame-*.*") if _number(path) >= frames]
-    if old:
-        notice(f"notice: {folder} also holds {len(old)} files of a longer path; delete them")
+def notice_old_frames(folder: Path, frames: int, *, suffix: str) -> None:
+    """Prints a notice if frames of an earlier path stay: of a longer one, or in other formats."""
+    found = [path for path in folder.glob("frame-*.*") if _number(path) >= 0]
+    longer = [path for path in found if path.suffix == suffix and _number(path) >= frames]
+    if longer:
+        notice(f"notice: {folder} also holds {len(longer)} files of a longer path; delete them")
+    series = [path for path in folder.glob("frames.*.series") if suffix not in path.suffixes]
+    others = sorted(path for path in (*found, *series) if suffix not in path.suffixes)
+    if others:
+        notice(
+            f"notice: {folder} also holds {len(others)} files of an earlier path in another "
+            f"format, such as {others[0].name}; delete them"
+        )
 
 
 def _number(frame: Path) -> int:

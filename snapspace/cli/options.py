@@ -60,6 +60,18 @@ def vector_option(name: str, text: str) -> Callable[[Command], Command]:
     return click.option(name, multiple=True, metavar="X,Y,Z", callback=parse, help=text)
 
 
+def numbers_option(name: str, *, metavar: str, text: str) -> Callable[[Command], Command]:
+    """An option whose value is a list of finite numbers, None if it is not given."""
+
+    def parse(ctx: click.Context, option: click.Parameter, value: str | None) -> list[float] | None:
+        try:
+            return None if value is None else parse_numbers(value)
+        except ValueError as error:
+            raise click.BadParameter(str(error), ctx, option) from None
+
+    return click.option(name, metavar=metavar, callback=parse, help=text)
+
+
 def json_option(command: Command) -> Command:
     """Adds --json, as the parameter as_json."""
     return click.option(

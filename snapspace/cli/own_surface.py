@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import click
+import numpy as np
 
 from ..animation import shape_suffixes
-from ..mesh import embed_file, open_surface, solid_of
+from ..mesh import SurfaceFile, embed_file, open_surface, solid_of
 from ..reduction import InterpolationModel, PosingModel
 from .console import notice
 from .files import ANIMATIONS, SURFACE_INPUTS, TET_OUTPUTS
@@ -76,6 +77,8 @@ def check_own_output(model: Model, output: Path | None, kind: str | None, *, pat
     if source is None or suffix in TET_OUTPUTS:
         return
     if suffix != source.suffix:
+        if _is_plain(source):
+            return
         notice(
             f"notice: a {suffix} file has triangles and positions only; write {source.suffix} to "
             f"keep all that {source.name} has"
@@ -88,6 +91,16 @@ def check_own_output(model: Model, output: Path | None, kind: str | None, *, pat
         notice(
             f"notice: {source.name} refers to {', '.join(missing)}; copy the file to {folder} too"
         )
+
+
+def _is_plain(source: SurfaceFile) -> bool:
+    """Whether a file has triangles and positions only, so that any format keeps all of it."""
+    if source.suffix == ".off":
+        # the word OFF with three counts, and what triangles take: colours and comments are more
+        words = 4 + 3 * len(source.vertices) + 4 * len(source.faces)
+        only_triangles = bool((np.diff(source.starts) == 3).all())
+        return only_triangles and len(source.data.split()) <= words
+    return source.suffix == ".stl"
 
 
 #: Extensions that a shape may be written to; some of them only for some models.

@@ -20,6 +20,7 @@ from ..server import (
     SharedBody,
     mesh_body,
     problem_body,
+    read_mesh,
     serve,
 )
 from ..server.serve import HOST
@@ -119,7 +120,7 @@ def view(
 
 
 def _body(file: Path, filling: SurfaceFilling | None, thickness: float | None) -> SharedBody:
-    """The body that the page starts with; a problem or tets are read now, to show errors here."""
+    """The body that the page starts with; its file is read now, to show errors here."""
     suffix = file.suffix.lower()
     if suffix in (PROBLEM_SUFFIX, *TET_SUFFIXES) and thickness is not None:
         raise ValueError(f"{file}: --shell is for surfaces; a problem file says its own thickness")
@@ -128,11 +129,7 @@ def _body(file: Path, filling: SurfaceFilling | None, thickness: float | None) -
     elif suffix in TET_SUFFIXES:
         body = mesh_body(file, stage=lambda stage: None)
     else:
-        return SharedBody(
-            lambda to: mesh_body(
-                file, stage=to.stage, filling=filling, thickness=thickness, read=to.read
-            )
-        )
+        return SharedBody(read_mesh(file, filling=filling, thickness=thickness))
     return SharedBody(lambda _: body)
 
 

@@ -12,9 +12,10 @@ from ..input_error import InputError
 def existing_file(path: str | os.PathLike[str], *, known: Iterable[str]) -> Path:
     """The path as given; ValueError unless it is a file with one of the known extensions."""
     file = Path(path)
-    _check_extension(file, known)
     if file.is_dir():
         raise InputError(file, "this is a folder; a file is needed")
+    if file.suffix or file.exists():
+        _check_extension(file, known)
     if not file.exists():
         raise InputError(file, "there is no such file")
     return file

@@ -40,7 +40,8 @@ def read_obj(data: bytes) -> FileContent:
         vertices = np.array(coordinates, dtype=np.float64).reshape(-1, 3)
     except ValueError:
         raise ValueError("a vertex has a coordinate that is not a number") from None
-    return surface_content(vertices, faces.corners(), faces.sizes, faces.normals(normals_so_far))
+    corners = faces.corners(len(vertices))
+    return surface_content(vertices, corners, faces.sizes, faces.normals(normals_so_far))
 
 
 def write_obj(path: Path, vertices: FloatArray, faces: IndexArray) -> None:
@@ -67,11 +68,8 @@ class _Faces:
         self._vertices.append(vertices_so_far)
         self._normals.append(normals_so_far)
 
-    def corners(self) -> IndexArray64:
-        """The vertex of each corner; ValueError if one is no index.
-
-        A relative index that reaches before the first vertex stays negative and is refused later.
-        """
+    def corners(self, count: int) -> IndexArray64:
+        """The vertex of each corner; ValueError if one is no index of `count` vertices."""
         try:
             given = [int(word.partition("/")[0]) for word in self._words]
         except ValueError:
@@ -81,7 +79,15 @@ class _Faces:
             raise ValueError(f"line {line}: a face has vertex index 0, but OBJ counts from 1")
         indices = corner_array([index - 1 if index > 0 else index for index in given])
         so_far = np.repeat(np.array(self._vertices, np.int64), self.sizes)
-        return np.where(indices < 0, indices + so_far, indices)
+        absolute = np.where(indices < 0, indices + so_far, indices)
+        wrong = np.flatnonzero((absolute < 0) | (absolute >= count))
+        if wrong.size:
+            place = int(wrong[0])
+            raise ValueError(
+                f"line {self._line(place)}: a face has vertex index {given[place]}, but the file "
+                f"has {count} vertices"
+            )
+        return absolute
 
     def normals(self, count: int) -> IndexArray64 | None:
         """The normal of each corner, -1 for none or one that does not exist; None without any."""

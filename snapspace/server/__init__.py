@@ -1,6 +1,6 @@
 """A local server for the page: it poses models, and chooses handles on meshes."""
 
-from .bodies import MESH_SUFFIXES, PROBLEM_SUFFIX, mesh_body, problem_body
+from .bodies import MESH_SUFFIXES, PROBLEM_SUFFIX, mesh_body, problem_body, read_mesh
 from .serve import serve
 from .shared_body import SharedBody
 
@@ -10,5 +10,6 @@ __all__ = [
     "SharedBody",
     "mesh_body",
     "problem_body",
+    "read_mesh",
     "serve",
 ]

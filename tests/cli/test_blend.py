@@ -191,9 +191,10 @@ REFUSED: dict[str, tuple[list[str], str]] = {
     "count": (["--weights", "1,0"], "3 poses need 3 weights, got 2"),
     "sum": (["--weights", "0.5,0.5,0.1"], "sum to 1.1, but they must sum to 1; divide them"),
     "negative": (["--weights", "-0.1,1.1,0"], "-0.1 is below 0, the least weight that was sampled"),
-    "words": (["--weights", "a,b,c"], "'a,b,c' is not numbers such as 0.2,0.8"),
-    "nothing": (["--weights", ","], "',' is not numbers"),
-    "nan": (["--weights", "nan,0,1"], "'nan,0,1' is not finite"),
+    "words": (["--weights", "a,b,c"], "'--weights': 'a,b,c' is not numbers such as 0.2,0.8"),
+    "nothing": (["--weights", ","], "'--weights': ',' is not numbers"),
+    "a gap": (["--weights", "0.2,,0.8"], "'--weights': '0.2,,0.8' is not numbers"),
+    "nan": (["--weights", "nan,0,1"], "'--weights': 'nan,0,1' is not finite"),
     "sum when extrapolating": (["--weights", "2,0,0", "--extrapolate"], "weights sum to 2"),
     "even of one shape": (
         ["--weights", TEXT, "--even", "shape"],

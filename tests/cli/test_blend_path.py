@@ -120,6 +120,24 @@ def test_frames_left_from_a_longer_path_are_reported(
     assert len(list((tmp_path / "frames").iterdir())) == 1 + 5 * (1 + len(linear)), "all are kept"
 
 
+def test_frames_left_in_another_format_are_reported(
+    run: Run, blend_model: Path, tmp_path: Path
+) -> None:
+    frames = tmp_path / "frames"
+    words = ("-o", frames, "--path")
+    run("blend", blend_model, *words, 3, "--format", "vtu")
+    (frames / "frames.vtu.series").write_text("{}")
+    found = " ".join(run("blend", blend_model, *words, 2, "--format", "obj").err.split())
+    assert (
+        f"{frames} also holds 4 files of an earlier path in another format, such as "
+        "frame-0000.vtu; delete them" in found
+    )
+    assert "longer path" not in found
+    (frames / "frame-0007.obj").touch()
+    found = " ".join(run("blend", blend_model, *words, 2, "--format", "obj").err.split())
+    assert "also holds 1 files of a longer path" in found and "holds 4 files of an earlier" in found
+
+
 def test_a_picture_shows_seven_frames_with_the_straight_ones_below(
     run: Run, blend_model: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from snapspace import check_surface, read_surface, read_tets, write_surface, write_tets
 from snapspace.mesh import compact_surface
 
@@ -56,7 +58,17 @@ def test_tets_are_checked_and_repaired(run: Run, tmp_path: Path) -> None:
 
 def test_mistakes_have_exit_code_2(run: Run, tmp_path: Path) -> None:
     assert "known are .obj" in run("check", tmp_path / "a.txt").error
+    for command in ("check", "info"):
+        assert run(command, tmp_path / "octopus").error.endswith("octopus: there is no such file")
     file = open_bar(tmp_path)
     assert "known are .obj" in run("check", file, "--fix", tmp_path / "a.msh").error
     (tmp_path / "empty.obj").write_text("")
     assert "it has no faces" in run("check", tmp_path / "empty.obj").error
+
+
+def test_view_refuses_a_file_without_faces_before_it_serves(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("snapspace.cli.view.serve", lambda *_, **__: pytest.fail("it serves"))
+    (tmp_path / "empty.obj").write_text("")
+    assert "it has no faces" in run("view", tmp_path / "empty.obj", "--no-browser").error

@@ -138,7 +138,7 @@ CASES: dict[str, tuple[Case, str]] = {
         lambda f: tets(f, f / "a.xyz"),
         "a.xyz: unknown extension '.xyz'; known are .obj, .off, .ply, .stl, .glb, .gltf, .mesh, ",
     ),
-    "no extension": (lambda f: surfaces(f, f / "a"), "a: no extension; known are .obj"),
+    "no extension": (lambda f: surfaces(f, f / "a"), "a: there is no such file"),
     "folder": (folder_as_pose, "folder.mesh: this is a folder; a file is needed"),
     "mixture": (mixture, "some poses are tets and others surfaces; give all of one kind"),
     "tets for tets": (

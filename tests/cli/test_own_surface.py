@@ -83,6 +83,18 @@ def test_a_blend_writes_the_first_pose(run: Run, surface_words: list[object]) ->
     assert np.array_equal(read_surface(out)[1], read_surface(rest)[1])
 
 
+@pytest.mark.parametrize(("face", "says"), [("", False), (" 0.5 0.5 0.5", True)])
+def test_a_file_of_triangles_and_positions_loses_nothing_in_another_format(
+    run: Run, model: Path, tmp_path: Path, face: str, says: bool
+) -> None:
+    """Colours of faces are more."""
+    file = tmp_path / "one.off"
+    file.write_text(f"OFF\n3 1 0\n1 0 0\n1.5 0 0\n1 0.5 0\n3 0 1 2{face}\n")
+    result = run("pose", model, *MOVE, "--surface", file, "-o", tmp_path / "out.obj")
+    assert result.code == 0
+    assert ("write .off to keep all that one.off has" in result.err) is says
+
+
 def test_mistakes_are_named(run: Run, model: Path, own_model: Path, tmp_path: Path) -> None:
     out = tmp_path / "out.glb"
     text = "a .glb file is written only in place of the surface that the model was made from"

@@ -182,6 +182,9 @@ def test_names_the_path_that_cannot_be_read(tmp_path: Path) -> None:
         read_tets(tmp_path / "folder.msh")
     with pytest.raises(ValueError, match=r"a\.xyz: unknown extension '\.xyz'; known are \.mesh, "):
         read_tets(tmp_path / "a.xyz")
+    with pytest.raises(ValueError, match=r"mesh: there is no such file"):
+        read_tets(tmp_path / "mesh")
+    (tmp_path / "mesh").touch()
     with pytest.raises(ValueError, match=r"mesh: no extension; known are"):
         read_tets(tmp_path / "mesh")
 
