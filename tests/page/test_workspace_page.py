@@ -231,6 +231,27 @@ def test_a_bad_mesh_is_reported(
     page.wait("snapspace.kind === 'choosing'")
 
 
+def test_a_bad_file_that_is_dropped_leaves_handles_and_model(page: Page) -> None:
+    chosen = handles(page)
+    compute(page)
+    wait_for_text(page, "#panel", "Done in")
+    page.run(
+        """(() => {
+            const files = new DataTransfer();
+            files.items.add(new File(["v 0 0 0\\nf 1 1 9\\n"], "bad.obj"));
+            document.dispatchEvent(new DragEvent("drop", { dataTransfer: files }));
+        })()"""
+    )
+    page.wait("Boolean(document.querySelector('#message [role=alert]'))")
+    assert "bad.obj: line 2: a face has vertex index 9" in page.text("#message")
+    press(page, "Close")
+    page.drag(page.run("snapspace.handle(1)"), 30, -20)
+    assert np.linalg.norm(page.motions()[1][1]) > 0.02
+    press(page, "Choose handles")
+    page.wait("snapspace.kind === 'choosing'")
+    assert handles(page) == chosen
+
+
 def test_the_end_of_the_server_is_told_and_posing_goes_on(
     bar_folder: Path, opened: OpenPage
 ) -> None:
