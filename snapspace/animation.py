@@ -88,7 +88,7 @@ def write_animation(
             f"write_animation: {', '.join(picture)} applies to films only, but {target} is a "
             "folder; give a name that ends in .gif, .mp4 or .glb"
         )
-    suffix = f".{kind}" if kind else usual_suffix(model.surface)
+    suffix = shape_suffix(model, kind)
     return _written(target, model, shapes, suffix, frames_per_second)
 
 
@@ -113,9 +113,12 @@ def shape_suffixes(surface: EmbeddedSurface) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*SURFACE_OUTPUTS, *own, *TET_OUTPUTS)))
 
 
-def usual_suffix(surface: EmbeddedSurface) -> str:
-    """The extension of the user's own surface, or .obj."""
-    return ".obj" if surface.source is None else surface.source.suffix
+def shape_suffix(model: ReducedModel, kind: str | None) -> str:
+    """The extension of shapes of a kind, by default that of the user's own surface, or .obj."""
+    if kind:
+        return f".{kind}"
+    source = model.surface.source
+    return ".obj" if source is None else source.suffix
 
 
 def _written(

@@ -185,9 +185,8 @@ double TetRows::sum(int half, const TetEnergies& energies) {
   Half& work = halves_[half];
   visit(
       work, blocks_of(half),
-      [&](const Cluster& cluster, int block) {
-        Tets G[3][3], P[3][3];
-        gradients(cluster, work, block, G);
+      [&](const Cluster& cluster, int block, const Tets G[3][3]) {
+        Tets P[3][3];
         value += lane_sum(energies.block_energy(block, G, P));
         add_stresses(cluster, work, block, P);
       },
@@ -204,42 +203,34 @@ void TetRows::add_hessian(int half, const TetEnergies& energies, double* hessian
   Half& work = halves_[half];
   visit(
       work, blocks_of(half),
-      [&](const Cluster& cluster, int block) {
-        Tets G[3][3], C[9][9];
-        gradients(cluster, work, block, G);
+      [&](const Cluster& cluster, int block, const Tets G[3][3]) {
+        Tets C[9][9];
         energies.block_curvatures(block, G, C);
         add_curvatures(cluster, block, C, cluster.is_local() ? work.hessian.data() : hessian);
       },
       [&](const Cluster& cluster) { add_local_hessian(cluster, work, hessian); });
 }
 
-template <class Use>
-void TetRows::with_gradients(Use use) {
-  Half& work = halves_[0];
+void TetRows::store_curvatures(const TetEnergies& energies, float* to) {
   visit(
-      work, all_,
-      [&](const Cluster& cluster, int block) {
-        Tets G[3][3];
-        gradients(cluster, work, block, G);
-        use(block, G);
+      halves_[0], all_,
+      [&](const Cluster&, int block, const Tets G[3][3]) {
+        Tets C[9][9];
+        energies.block_curvatures(block, G, C);
+        to = store_lanes<81>(lanes(block), &C[0][0], to);
       },
       [](const Cluster&) {});
 }
 
-void TetRows::store_curvatures(const TetEnergies& energies, float* to) {
-  with_gradients([&](int block, const Tets G[3][3]) {
-    Tets C[9][9];
-    energies.block_curvatures(block, G, C);
-    to = store_lanes<81>(lanes(block), &C[0][0], to);
-  });
-}
-
 void TetRows::store_stresses(const TetEnergies& energies, float* to) {
-  with_gradients([&](int block, const Tets G[3][3]) {
-    Tets P[3][3];
-    (void)energies.block_energy(block, G, P);
-    to = store_lanes<9>(lanes(block), &P[0][0], to);
-  });
+  visit(
+      halves_[0], all_,
+      [&](const Cluster&, int block, const Tets G[3][3]) {
+        Tets P[3][3];
+        (void)energies.block_energy(block, G, P);
+        to = store_lanes<9>(lanes(block), &P[0][0], to);
+      },
+      [](const Cluster&) {});
 }
 
 void TetRows::add_curvatures(const Cluster& cluster, int block, const Tets curvature[9][9],

@@ -107,8 +107,8 @@ class TetRows {
     return half == 0 ? std::span(active_).first(middle) : std::span(active_).subspan(middle);
   }
 
-  /// Calls act(cluster, block) for ascending blocks, with the cluster's local coordinates at q, and
-  /// leave(cluster) after the last one of each cluster.
+  /// Calls act(cluster, block, G) for ascending blocks, with the displacement gradients of their
+  /// tets at q, and leave(cluster) after the last one of each cluster.
   template <class Act, class Leave>
   void visit(Half& work, std::span<const int> blocks, const Act& act, const Leave& leave) {
     const Cluster* cluster = nullptr;
@@ -119,14 +119,12 @@ class TetRows {
         while (block >= cluster->end) ++cluster;
         enter(*cluster, work);
       }
-      act(*cluster, block);
+      Tets G[3][3];
+      gradients(*cluster, work, block, G);
+      act(*cluster, block, G);
     }
     if (cluster) leave(*cluster);
   }
-
-  /// Calls use(block, G) for all blocks, active or not, with their tets' displacement gradients.
-  template <class Use>
-  void with_gradients(Use use);
 
   void allocate(Half& half) const;
   /// Sets the cluster's local coordinates at q, and resets their forces to zero.

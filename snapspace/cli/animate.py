@@ -9,7 +9,7 @@ from typing import Any
 import click
 import numpy as np
 
-from ..animation import usual_suffix, write_animation
+from ..animation import shape_suffix, write_animation
 from ..problem.json_entries import within
 from ..reduction import InterpolationModel, PosingModel
 from ..timeline import Timeline, read_timeline, timeline_of
@@ -96,8 +96,7 @@ def animate(
                 output, model, shapes, frames_per_second=rate, up=shown_up, **painted
             )
         elif output is not None:
-            suffix = f".{kind}" if kind else usual_suffix(model.surface)
-            notice_old_frames(output, count, suffix=suffix)
+            notice_old_frames(output, count, suffix=shape_suffix(model, kind))
             files = write_animation(output, model, shapes, kind=kind, frames_per_second=rate)
     solve = 1e3 * float(np.median([report.seconds for report in reports]))
     facts = [

@@ -10,7 +10,7 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
-from ..animation import usual_suffix, write_animation
+from ..animation import shape_suffix, write_animation
 from ..extras import need_extra
 from ..mesh import ShellMesh
 from ..mesh.input_path import writable_path
@@ -195,7 +195,7 @@ def _write(
 ) -> list[Path]:
     if output is None:
         return []
-    suffix = f".{kind}" if kind else usual_suffix(model.surface)
+    suffix = shape_suffix(model, kind)
     if folder:
         notice_old_frames(output, len(shapes), suffix=suffix)
     written = []

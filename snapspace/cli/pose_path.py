@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..animation import usual_suffix, write_animation
+from ..animation import shape_suffix, write_animation
 from ..mesh import TetMesh
 from ..pictures import tint
 from ..problem import PosingProblem
@@ -53,8 +53,7 @@ class PosedPath:
                 colors=handle_colors(self.model),
                 up=up,
             )
-        suffix = f".{kind}" if kind else usual_suffix(self.model.surface)
-        notice_old_frames(output, len(self.shapes), suffix=suffix)
+        notice_old_frames(output, len(self.shapes), suffix=shape_suffix(self.model, kind))
         return write_animation(output, self.model, self.shapes, kind=kind)
 
     def as_json(self, files: list[Path]) -> dict[str, Any]:

@@ -58,6 +58,15 @@ def settings(tmp_path: Path) -> ServerSettings:
     )
 
 
+def opened(settings: ServerSettings) -> tuple[Workspace, Mailbox]:
+    """A workspace whose mesh has been read, and the messages that it sends."""
+    mailbox = Mailbox()
+    workspace = Workspace(settings, mailbox.put)
+    workspace.open()
+    mailbox.wait_for(Opened, kind="mesh")
+    return workspace, mailbox
+
+
 @pytest.fixture
 def no_collector() -> Iterator[None]:
     gc.collect()
@@ -68,10 +77,7 @@ def no_collector() -> Iterator[None]:
 
 def test_a_closed_page_holds_no_memory(settings: ServerSettings, no_collector: None) -> None:
     """Memory is free before cycles are collected: samples are large, collections rare."""
-    mailbox = Mailbox()
-    workspace = Workspace(settings, mailbox.put)
-    workspace.open()
-    mailbox.wait_for(Opened, kind="mesh")
+    workspace, mailbox = opened(settings)
     workspace.receive(ORDER)
     mailbox.wait_for(Model, final=True)
     assert workspace._session is not None and workspace._models.newest is not None
@@ -85,10 +91,7 @@ def test_a_closed_page_holds_no_memory(settings: ServerSettings, no_collector: N
 def test_poissons_ratio_changes_lam_and_null_is_the_material_of_the_file(
     settings: ServerSettings,
 ) -> None:
-    mailbox = Mailbox()
-    workspace = Workspace(settings, mailbox.put)
-    workspace.open()
-    mailbox.wait_for(Opened, kind="mesh")
+    workspace, mailbox = opened(settings)
     materials = []
     for request, ratio in enumerate((None, 0.4, None), start=1):
         workspace.receive(replace(ORDER, request=request, poisson=ratio))
@@ -102,10 +105,7 @@ def test_poissons_ratio_changes_lam_and_null_is_the_material_of_the_file(
 
 
 def test_each_material_starts_from_the_samples_of_the_last_one(settings: ServerSettings) -> None:
-    mailbox = Mailbox()
-    workspace = Workspace(settings, mailbox.put)
-    workspace.open()
-    mailbox.wait_for(Opened, kind="mesh")
+    workspace, mailbox = opened(settings)
     for request, kind in enumerate(("stvk", "arap", "stable-neo-hookean"), start=1):
         workspace.receive(replace(ORDER, request=request, material=kind))
         mailbox.wait_for(Model, request=request, final=True)
@@ -116,10 +116,7 @@ def test_each_material_starts_from_the_samples_of_the_last_one(settings: ServerS
 
 
 def test_a_removed_handle_is_gone_at_once(settings: ServerSettings) -> None:
-    mailbox = Mailbox()
-    workspace = Workspace(settings, mailbox.put)
-    workspace.open()
-    mailbox.wait_for(Opened, kind="mesh")
+    workspace, mailbox = opened(settings)
     order = replace(ORDER, material="stable-neo-hookean", target_error=1e-4, most_samples=40)
     every = choices_of(bar_problem())
     for request, chosen in enumerate((every, every[:2]), start=1):
@@ -145,10 +142,7 @@ def refusal(settings: ServerSettings, monkeypatch: pytest.MonkeyPatch, error: Ex
         raise error
 
     monkeypatch.setattr("snapspace.server.computation.growing_models", raises)
-    mailbox = Mailbox()
-    workspace = Workspace(settings, mailbox.put)
-    workspace.open()
-    mailbox.wait_for(Opened, kind="mesh")
+    workspace, mailbox = opened(settings)
     workspace.receive(ORDER)
     mailbox.wait_for(Failed, request=1)
     workspace.close()
@@ -218,10 +212,7 @@ def test_a_late_end_of_an_old_mesh_does_not_hide_the_new_one(
 def test_a_file_that_cannot_be_read_leaves_all_work_as_it_is(
     settings: ServerSettings, tmp_path: Path, content: str
 ) -> None:
-    mailbox = Mailbox()
-    workspace = Workspace(settings, mailbox.put)
-    workspace.open()
-    mailbox.wait_for(Opened, kind="mesh")
+    workspace, mailbox = opened(settings)
     workspace.receive(ORDER)
     mailbox.wait_for(Model, final=True)
     session, newest, begun = workspace._session, workspace._models.newest, len(mailbox.messages)
@@ -249,10 +240,7 @@ def test_cancelling_the_reading_of_a_file_leaves_the_computation(
         raise ValueError("too late")
 
     monkeypatch.setattr("snapspace.server.uploaded_body.read_mesh", read)
-    mailbox = Mailbox()
-    workspace = Workspace(settings, mailbox.put)
-    workspace.open()
-    mailbox.wait_for(Opened, kind="mesh")
+    workspace, mailbox = opened(settings)
     workspace.receive(ORDER)
     workspace.upload(tmp_path / "a" / "slow.obj")
     workspace.receive(Cancel(request=3))
