@@ -15,19 +15,19 @@ export function surfaceView(stage: Stage, scene: MeshScene, below: readonly HTML
   const stop = new AbortController();
   scene.sheet = shortcutSheet([], (view) => stage.look(1, VIEWS[view]), stop.signal);
   document.addEventListener("keydown", press, { signal: stop.signal });
-  let isTaken = false;
+  let isLeft = false;
   return {
     hud: meshHud(scene),
     label: "The surface.",
     panel: [scene.panel, ...below],
     script: { kind: "surface", scene },
     take: () => {
-      isTaken = true;
+      isLeft = true;
       return scene.isDisposed ? null : scene;
     },
     dispose: () => {
       stop.abort();
-      if (!isTaken) scene.dispose();
+      if (!isLeft) scene.dispose();
     },
   };
 }
