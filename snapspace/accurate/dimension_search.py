@@ -19,8 +19,13 @@ GROWTH = 1.2
 LAST_GROWTH = 1.1
 #: If more dimensions leave more than this share of the error, still more do not help.
 FALL = 0.9
-#: Factor by which the next try aims below the target.
+#: Factor by which a try aims below the target. A median over few held-out samples is uncertain, and
+#: more dimensions of the same samples cost little.
+AIM = 1.5
+#: The same at least; if no dimension meets that, more samples are needed.
 MARGIN = 1.1
+#: Share of a plan's most dimensions beyond which tries aim no lower than they must: frames get slow.
+AIMED = 0.8
 
 
 class DimensionSearch:
@@ -42,6 +47,7 @@ class DimensionSearch:
         self._projections = np.array([plan.typical(row) for row in growing.projection_errors()])
         most = int(MODES_PER_SOLUTION * growing.trained_solutions)
         self.most = min(plan.most_dimensions, most, len(self._projections) - 1)
+        self._most_aimed = int(AIMED * plan.most_dimensions)
         self._target = target
         self._ratio = ratio
         self.steps: list[Step] = []
@@ -62,13 +68,26 @@ class DimensionSearch:
         """
         while not self._useless():
             tried = self.steps[-1].dimension if self.steps else 0
-            enough = np.flatnonzero(self._projections * self._ratio * MARGIN <= self._target)
-            wanted = max(int(enough[0]), ceil(GROWTH * tried), 1) if len(enough) else self.most + 1
+            wanted = max(self._wanted(), ceil(GROWTH * tried), 1)
             if wanted > self.most:
                 if LAST_GROWTH * tried > self.most or not last:
                     return
                 wanted = self.most
             yield wanted
+
+    def _wanted(self) -> int:
+        """The dimension that is expected to meet the target; above the most if there is none."""
+        enough = self._first_below(MARGIN)
+        if enough > self.most:
+            return enough
+        room = min(self.most, self._most_aimed)
+        wanted = max(enough, min(self._first_below(AIM), room))
+        return room if wanted <= room < GROWTH * wanted else wanted  # no try would fit in between
+
+    def _first_below(self, factor: float) -> int:
+        expected = self._projections * self._ratio * factor
+        meeting = np.flatnonzero(expected <= self._target)
+        return int(meeting[0]) if len(meeting) else self.most + 1
 
     def _useless(self) -> bool:
         """Whether the target is met, or the last dimensions did not help."""
