@@ -152,7 +152,7 @@ def _read_surface(path: Path) -> UserSurface:
 
 
 def model_body(model: ReducedModel, *, name: str, folder: Path) -> Body:
-    """The body of a model, to choose other handles on.
+    """The body of a model, to choose other handles on; it keeps the model.
 
     Parameters
     ----------
@@ -183,4 +183,5 @@ def model_body(model: ReducedModel, *, name: str, folder: Path) -> Body:
         up=model.up,
         mirror=model.mirror_plane,
         painted=painted_vertices(model),
+        model=model,
     )

@@ -13,6 +13,7 @@ from ..mesh import EmbeddedSurface, MirrorPlane
 from ..model_file.appearance import appearance_notes
 from ..notice import collected_notices
 from ..problem import PosingProblem
+from ..reduction import ReducedModel
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,6 +32,7 @@ class Body:
     painted : by the name of a handle, the vertices of the surface where it was painted
     material : Material to begin with, or None for the usual one
     notices : what was mended or left out when the mesh was made, or is not shown, for the reader
+    model : ReducedModel that the body came from, or None
     """
 
     name: str
@@ -45,6 +47,7 @@ class Body:
     painted: Mapping[str, Sequence[int]] = field(default_factory=dict)
     material: Material | None = None
     notices: tuple[str, ...] = ()
+    model: ReducedModel | None = None
 
 
 def with_notices(

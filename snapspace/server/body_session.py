@@ -22,6 +22,7 @@ from .computation import Computation, Publish
 from .computation_queue import ComputationQueue
 from .extension import Extension, extension_of
 from .first_workspaces import mesh_workspace
+from .given_model import GivenModel
 from .materials import chosen_material, fitted_material
 from .mirroring import Mirroring
 from .models import Models, usable_start
@@ -58,6 +59,7 @@ class BodySession:
         self._selection: Selection | None = None
         self._painted: tuple[messages.HandleChoice, ...] = ()  # if the body has its own surface
         self.mirroring = Mirroring(body)
+        self.given = GivenModel(body)
         self._order: messages.Compute | None = None  # the last one
         self._extension: Extension | None = None  # until there is a model of it
         self._regions = _regions_of(body)
@@ -193,7 +195,7 @@ class BodySession:
         return owners
 
     def save(self, order: messages.Save) -> messages.Saved:
-        """Writes the problem with the handles and parts chosen last, and the newest model.
+        """Writes the problem with the handles and parts chosen last, and the newest posing model.
 
         ValueError if there are no handles, for an invalid timeline, and as for `SavedFiles.save`.
         """
@@ -206,7 +208,8 @@ class BodySession:
         return self._saved.save(
             self.body,
             problem,
-            None if model is None else self.recorded(model, order),
+            # a model that blends poses is of no handles
+            self.recorded(model, order) if isinstance(model, PosingModel) else None,
             name=order.name,
             request=order.request,
             up=order.up,

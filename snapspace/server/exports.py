@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from ..page import packed, page_with_packed
 from ..reduction import ReducedModel
+from .body_session import BodySession
+from .messages import Export
+from .models import Models
+from .recorded import recorded
 
 
 class Exports:
@@ -12,9 +16,31 @@ class Exports:
     def __init__(self) -> None:
         self._last: tuple[int, str, ReducedModel] | None = None
 
-    def keep(self, number: int, name: str, model: ReducedModel) -> None:
-        """Keeps the model of a number; `name` is the heading of its page."""
-        self._last = number, name, model
+    def keep(
+        self, order: Export, models: Models, session: BodySession | None, *, title: str
+    ) -> None:
+        """Keeps the model of an order, with what was made on its page.
+
+        Parameters
+        ----------
+        order : Export
+        models : Models
+        session : BodySession or None
+            That of the body whose handles are chosen.
+        title : str
+            Heading of the page without a session; else it is the name of the body.
+
+        Raises
+        ------
+        ValueError
+            If the model is no longer kept, or for an invalid timeline.
+        """
+        model, name = models.get(order.model), title
+        if session is None:
+            model = recorded(model, up=order.up, timeline=order.timeline)
+        else:
+            model, name = session.recorded(model, order), session.body.name
+        self._last = order.model, name, model
 
     def content(self, number: int) -> bytes | None:
         """The page with the model of a number; None if another one was asked for since."""

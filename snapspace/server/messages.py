@@ -110,6 +110,9 @@ class Progress:
 class Model:
     """Server: a model that can be posed. Better ones follow until one is final.
 
+    After the `Workspace` of a model's body comes that model, final and with request 0: it can be
+    posed or blended until another one is computed.
+
     number : increases from model to model; it is part of the address
     address : address of the packed model, valid until there are two newer ones
     dimension, samples : dimension of this model, and number of samples that it is made of and

@@ -7,6 +7,7 @@ import shutil
 import threading
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from ..reduction import ReducedModel
@@ -23,7 +24,6 @@ from .opening import Opening
 from .page_channel import PageChannel
 from .page_computation import page_computation
 from .reader_text import failure
-from .recorded import recorded
 from .reopening import in_another_form, reopening, surface_of
 from .reporter import Reporter
 from .settings import ServerSettings
@@ -181,13 +181,8 @@ class Workspace:
 
     def _export(self, order: messages.Export) -> None:
         """Keeps a model with what was made on its page, until that page fetches it."""
-        order, session = replace(order, up=order.up or self._up), self._session
-        model, name = self._models.get(order.model), self._settings.title
-        if session is None:
-            model = recorded(model, up=order.up, timeline=order.timeline)
-        else:
-            model, name = session.recorded(model, order), session.body.name
-        self._exports.keep(order.model, name, model)
+        order = replace(order, up=order.up or self._up)
+        self._exports.keep(order, self._models, self._session, title=self._settings.title)
         address = self._address("page", order.model)
         self._emit(messages.Exported(request=order.request, address=address))
 
@@ -222,7 +217,7 @@ class Workspace:
             self._models,
             queue=self._settings.queue,
             up=lambda: self._up,
-            address=lambda number: self._address("model", number),
+            address=partial(self._address, "model"),
             send=self._send,
         )
         self._jobs.end_work()
@@ -261,13 +256,15 @@ class Workspace:
 
         def begin(session: BodySession, choices: messages.Keep | None) -> None:
             self._session, self._surface, self._draft = session, None, choices
-            self._emit(with_choices(session.begin(empty, mesh=address), choices))
+            given = session.given.give(self._models, address=partial(self._address, "model"))
+            self._emit(with_choices(session.begin(empty, mesh=address), choices), *given)
 
         def work() -> None:
             try:
-                body = make(Opening(report.send, show))
+                session = BodySession(make(Opening(report.send, show)), self._models)
+                session.given.pack()
                 check_stop()
-                begin(BodySession(body, self._models), self._draft)
+                begin(session, self._draft)
             except BaseException:
                 # otherwise another mesh has replaced this one, or its surface stays
                 if number == self._meshes and before is not None:

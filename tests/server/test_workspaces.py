@@ -13,7 +13,7 @@ from urllib.request import Request, urlopen
 import pytest
 from websockets.exceptions import ConnectionClosed
 
-from snapspace import PosingModel
+from snapspace import InterpolationModel, PosingModel
 from snapspace.server import workspace as module
 from snapspace.server.body import Body
 from snapspace.server.settings import PageTimeouts
@@ -137,6 +137,9 @@ def test_handles_are_chosen_on_the_body_of_a_model(posing_model: PosingModel, fo
         problem = posing_model.problem
         for handle, own in zip(workspace["handles"], problem.handles, strict=True):
             assert handle["name"] == own.name and handle["vertices"] == own.vertices.tolist()
+        model = page.take("model")
+        assert (model["request"], model["final"]) == (0, True), "it can be posed again"
+        assert model["dimension"] == posing_model.dimension
         upload = posing_model.save(folder / "other.snapspace")
         where = urlsplit(address)
         url = f"http://{where.netloc}/mesh?workspace={workspace['id']}&name=other.snapspace"
@@ -144,3 +147,26 @@ def test_handles_are_chosen_on_the_body_of_a_model(posing_model: PosingModel, fo
         again = page.workspace()
         assert (again["kind"], again["name"]) == ("mesh", "other")
         assert json.dumps(again["handles"]) == json.dumps(workspace["handles"])
+        assert page.take("model")["number"] > model["number"]
+    with socket(address, workspace["id"]) as second:  # the page is reloaded
+        page = Page(second)
+        assert page.take("workspace")["has_model"] and page.take("model")["request"] == 0
+
+
+def test_handles_on_a_pose_are_saved_without_the_model_that_blends(
+    blending_model: InterpolationModel, tmp_path: Path
+) -> None:
+    with socket(started(model=blending_model, folder=tmp_path)) as opened:
+        page = Page(opened)
+        assert page.take("workspace")["kind"] == "model"
+        page.send("edit")
+        workspace = page.workspace()
+        assert page.take("model")["final"], "it can be blended again"
+        bounds = {name: workspace[name] for name in ("translation", "angle")}
+        ends = [
+            {"name": name, "vertices": vertices, "moving": name == "head"}
+            for name, vertices in (("foot", [0, 1, 2]), ("head", [6, 7, 8]))
+        ]
+        page.ask("choose", "chosen", request=2, handles=ends, **bounds)
+        saved = page.ask("save", "saved", request=3)
+        assert Path(saved["problem"]).is_file() and saved["model"] is None

@@ -1,5 +1,5 @@
 import { eulerOfRotation, rotationOfEuler, type Vector } from "../engine/motion.ts";
-import type { Motions } from "./view.ts";
+import type { Motions, ViewState } from "./view.ts";
 
 /** What the page's address keeps, so that a reload finds the same state: the workspace in the query,
  * and in the hash the pose, the weights of a blend, or that handles are being chosen. */
@@ -32,7 +32,7 @@ export function motionsOf(hash: string): Motions {
 }
 
 /** Poses that take part, with their weights, in order. */
-export function blendHash(names: readonly string[], weights: readonly number[]): string {
+export function blendHash({ names, weights }: NonNullable<ViewState["blend"]>): string {
   return BLEND + names.map((name, i) => `${escaped(name)}:${short(weights[i])}`).join(";");
 }
 
@@ -42,6 +42,11 @@ export function blendOf(hash: string): { names: string[]; weights: number[] } {
   const isWhole = entries.every(([, numbers]) => numbers.length === 1);
   const taken = isWhole ? entries : [];
   return { names: taken.map(([name]) => name), weights: taken.map(([, [weight]]) => weight) };
+}
+
+/** What a view begins with that the hash describes. */
+export function stateOf(hash: string): ViewState {
+  return { motions: motionsOf(hash), blend: blendOf(hash) };
 }
 
 function entriesOf(hash: string, kind: string): [string, number[]][] {

@@ -5,7 +5,7 @@ import { blendPanel } from "./blend_panel.ts";
 import { BlendPath, type Jump } from "./blend_path.ts";
 import { listenToBlendingKeys } from "./blending_keys.ts";
 import { blendHash, keepHashSoon } from "./address.ts";
-import { chooser, enable, h, mark, toggle } from "./dom.ts";
+import { chooser, enable, h, mark, section, toggle } from "./dom.ts";
 import { CLAY } from "./handle_colors.ts";
 import { ExportPanel } from "./export_panel.ts";
 import { Ghosts, still } from "./ghosts.ts";
@@ -83,11 +83,8 @@ export async function blendingView(
     keep();
     stage.draw();
   };
-  const hash = () =>
-    blendHash(
-      choice.poses.map((pose) => model.poses[pose]),
-      choice.weights,
-    );
+  const blend = () => ({ names: choice.poses.map((pose) => model.poses[pose]), weights: choice.weights });
+  const hash = () => blendHash(blend());
   const keep = () => {
     if (!options.isFromFile) keepHashSoon(hash);
   };
@@ -189,7 +186,7 @@ export async function blendingView(
     shape: () => elastic.shown(),
     bare: () => () => {},
   });
-  if (model.timeline !== undefined) timeline.load(model.timeline);
+  timeline.begin(options.timeline, model.timeline);
   stage.beforeFrame = (seconds) => {
     timeline.advance(seconds);
     if (path.playing) walk(seconds);
@@ -238,8 +235,11 @@ export async function blendingView(
       timeline.element,
       look.element,
       takeAway.element,
-      ...chooser(options.choose),
+      ...(options.choose ? [section("Handles", ...chooser(options.choose))] : []),
     ],
+    get state() {
+      return { blend: blend(), timeline: timeline.content };
+    },
     script: {
       kind: "interpolation",
       session,

@@ -19,7 +19,7 @@ export interface ComputeActions {
   save(): void;
   exportPage(): void;
   choose(): void;
-  pose(): void;
+  show(): void;
 }
 
 /** The Compute button, its progress and its result. One panel serves all views, from choosing to posing. */
@@ -30,7 +30,7 @@ export class ComputePanel {
   readonly #save: HTMLButtonElement;
   readonly #export: HTMLButtonElement;
   readonly #choose: HTMLButtonElement;
-  readonly #pose: HTMLButtonElement;
+  readonly #show: HTMLButtonElement;
   readonly #bar = new ProgressBar();
   #newest: Model | null = null;
   readonly #model = h("p", { className: "model", role: "status", hidden: true });
@@ -47,7 +47,7 @@ export class ComputePanel {
     this.#export = button("Export HTML", acts.exportPage);
     this.#export.title = "A page in one file, which needs no server";
     this.#choose = button("Choose handles", acts.choose);
-    this.#pose = button("Pose", acts.pose);
+    this.#show = button("Pose", acts.show);
     this.element = section(
       "Model",
       this.#bar.element,
@@ -60,7 +60,7 @@ export class ComputePanel {
         this.#compute,
         this.#cancel,
         this.#choose,
-        this.#pose,
+        this.#show,
         this.#save,
         this.#export,
       ),
@@ -72,7 +72,8 @@ export class ComputePanel {
     isChoosing: boolean;
     lacking: string;
     isRunning: boolean;
-    hasModel: boolean;
+    /** The kind of the model that there is. */
+    model: "posing" | "interpolation" | null;
     /** Whether the view has its own button that leads to the handles. */
     hasChooser: boolean;
   }): void {
@@ -80,13 +81,15 @@ export class ComputePanel {
     this.#compute.disabled = now.lacking !== "";
     this.#cancel.hidden = !now.isRunning;
     this.#choose.hidden = now.isChoosing || now.hasChooser;
-    this.#pose.hidden = !now.isChoosing || !now.hasModel;
+    this.#show.hidden = !now.isChoosing || now.model === null;
+    this.#show.textContent = now.model === "interpolation" ? "Blend" : "Pose";
     this.element.classList.toggle("stays", now.isChoosing);
     this.#compute.title = now.lacking;
-    this.#save.textContent = now.hasModel ? "Save" : "Save handles";
+    const isPosed = now.model === "posing"; // only such a model is of handles
+    this.#save.textContent = isPosed ? "Save" : "Save handles";
     this.#showModel(now.isRunning);
-    this.#save.hidden = now.lacking !== "" || (!now.isChoosing && !now.hasModel);
-    this.#export.hidden = !now.hasModel;
+    this.#save.hidden = now.lacking !== "" || (!now.isChoosing && !isPosed);
+    this.#export.hidden = now.model === null;
     if (!now.isRunning) this.#bar.element.hidden = true;
   }
 

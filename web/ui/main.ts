@@ -1,5 +1,5 @@
 import { readModel } from "../engine/index.ts";
-import { blendOf, motionsOf } from "./address.ts";
+import { stateOf } from "./address.ts";
 import { blendingView } from "./blending_view.ts";
 import { filePicker, h } from "./dom.ts";
 import { exportPage } from "./export_page.ts";
@@ -48,15 +48,16 @@ async function open(source: () => Promise<Source | null>, file?: File): Promise<
     const model = readModel(given.bytes, given.name);
     const module = await shell.module;
     const { stage } = shell;
-    shell.clear();
+    if (workspace) workspace.leave();
+    else shell.clear();
     // the server knows its own model, as number 0, and no file that was dropped here
     const isOwn = source === ownModel;
     const polish = server && isOwn ? polishAt(server, () => workspace!.shownModel) : undefined;
-    const choose = workspace && (() => (file ? void workspace.upload(file) : workspace.edit()));
+    let view: View | null = null;
+    const choose = workspace && (() => workspace.edit(view?.state, file));
     // the address is of the page's own model
     const hash = isOwn ? location.hash : "";
-    const kept = { motions: motionsOf(hash), blend: blendOf(hash), isFromFile: !isOwn };
-    const options = { ...shell.options(model.up), ...kept, polish };
+    const options = { ...shell.options(model.up), ...stateOf(hash), isFromFile: !isOwn, polish };
     if (choose) Object.assign(options, { choose });
     if (workspace) Object.assign(options, { improving: isOwn ? workspace.improving : NOT_SERVED });
     if (server && isOwn) {
@@ -68,9 +69,10 @@ async function open(source: () => Promise<Source | null>, file?: File): Promise<
       const now = performance.now();
       shell.show(view, model.name, { openedIn: now - arrived, startedIn: now - started });
     };
-    if (model.kind === "interpolation") return show(await blendingView(stage, module, model, options));
-    const view = await posingView(stage, module, model, options);
-    show(workspace && isOwn ? workspace.adopt(model, view) : view);
+    if (model.kind === "interpolation")
+      return show((view = await blendingView(stage, module, model, options)));
+    const posing = (view = await posingView(stage, module, model, options));
+    show(workspace && isOwn ? workspace.adopt(model, posing) : view);
   } catch (error) {
     shell.showMessage(readable(error), true, opener());
   }

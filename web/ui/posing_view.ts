@@ -20,7 +20,7 @@ import { Pulling } from "./pulling.ts";
 import { Readout } from "./readout.ts";
 import { POSING, shortcutSheet } from "./shortcuts.ts";
 import { VIEWS, type Stage } from "./stage.ts";
-import type { Motions, View, ViewOptions } from "./view.ts";
+import type { View, ViewOptions } from "./view.ts";
 
 /** What drags do in each mode. */
 const HELP: Record<Mode, string> = {
@@ -32,10 +32,6 @@ const HELP: Record<Mode, string> = {
 /** A view whose model can be replaced by a better one, of these handles and perhaps more, also in the middle of a drag. */
 export interface PosingView extends View {
   replace(model: PosingModel): Promise<void>;
-  /** Where the handles are, by name. */
-  readonly motions: Motions;
-  /** The content of a timeline file; null without keys. */
-  readonly timeline: string | null;
 }
 
 /** Posing: handles on the stage, controls in the panel. */
@@ -228,8 +224,7 @@ export async function posingView(
     bare,
   });
   const { panel: timeline, ghosts } = posingTimeline(posing, model.name, () => scene.anotherSurface(), bare);
-  if (options.timeline) timeline.read(options.timeline);
-  else if (model.timeline !== undefined) timeline.load(model.timeline);
+  timeline.begin(options.timeline, model.timeline);
   const gravity = model.frames && { diagonal: model.diagonal, up: () => stage.up };
   const swing = jigglePanel(posing.jiggle, () => stage.draw(), gravity);
   stage.placed = () => swing.turn();
@@ -257,11 +252,8 @@ export async function posingView(
     label: "The shape. Keys: 1 to 9 choose a handle, arrows move or turn it.",
     panel,
     replace,
-    get motions() {
-      return motions();
-    },
-    get timeline() {
-      return timeline.content;
+    get state() {
+      return { motions: motions(), timeline: timeline.content };
     },
     script: {
       kind: "posing",

@@ -1,4 +1,4 @@
-import { readModel, type PosingModel } from "../engine/index.ts";
+import { readModel, type BlendingModel, type PosingModel } from "../engine/index.ts";
 import type { Model } from "../engine/messages.ts";
 import type { Server } from "./server.ts";
 
@@ -11,10 +11,14 @@ export class SentModels {
   }
 
   /** The content of a model; null if a newer one was announced. */
-  async read(sent: Model, server: Pick<Server, "fetched">, name: string): Promise<PosingModel | null> {
+  async read(
+    sent: Model,
+    server: Pick<Server, "fetched">,
+    name: string,
+  ): Promise<PosingModel | BlendingModel | null> {
     if (sent !== this.#newest) return null;
     try {
-      return readModel(await server.fetched(sent.address), name) as PosingModel;
+      return readModel(await server.fetched(sent.address), name);
     } catch (error) {
       if (sent !== this.#newest) return null; // no longer kept
       throw error;

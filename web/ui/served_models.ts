@@ -1,6 +1,7 @@
-import type { PosingModel } from "../engine/index.ts";
+import type { BlendingModel, PosingModel } from "../engine/index.ts";
 import type { HandleChoice, KeptPoint, Model, Progress } from "../engine/messages.ts";
 import type { AppShell } from "./app_shell.ts";
+import { blendingView } from "./blending_view.ts";
 import { ComputePanel } from "./compute_panel.ts";
 import { exportPage } from "./export_page.ts";
 import { Improving } from "./improving.ts";
@@ -9,7 +10,7 @@ import { polishAt } from "./polishing.ts";
 import { posingView, type PosingView } from "./posing_view.ts";
 import { SentModels } from "./sent_models.ts";
 import type { Request, Server } from "./server.ts";
-import type { Motions, View } from "./view.ts";
+import type { View, ViewState } from "./view.ts";
 
 /** The body and the handles that models are made for. */
 export interface Chosen {
@@ -33,25 +34,32 @@ export interface Chosen {
   try(act: () => Promise<void> | void): Promise<void>;
 }
 
-/** Models that the server computes and the page poses: the newest one is shown, saved and exported. */
+/** A model at the server: its number, and what the page shows of it. */
+interface ServedModel {
+  readonly number: number;
+  readonly content: PosingModel | BlendingModel;
+}
+
+/** Models that the server computes or has, and the page poses or blends: the newest one is shown, saved and exported. */
 export class ServedModels {
   readonly panel: ComputePanel;
   readonly job = new PageJob();
   /** Makes handles of points that are kept. */
   readonly improving: Improving;
-  /** Where the handles were when posing was left. */
-  motions: Motions = new Map();
+  /** Where the model was left. */
+  state: ViewState = {};
   readonly #shell: AppShell;
   readonly #server: Server;
   readonly #chosen: Chosen;
   readonly #sent = new SentModels();
-  /** The newest model, and its number at the server. */
-  #model: { number: number; content: PosingModel } | null = null;
-  #posing: PosingView | null = null;
+  /** The newest model. */
+  #model: ServedModel | null = null;
+  /** The one before a computation, until there is a model of that. */
+  #before: ServedModel | null = null;
+  /** The view of the model; a blend is never replaced. */
+  #view: (View & Partial<Pick<PosingView, "replace">>) | null = null;
   /** Whether the view is that of the server's own model. */
   #isOwn = false;
-  /** The keys that were made when posing was left, as the content of a timeline file. */
-  #timeline: string | null = null;
 
   constructor(shell: AppShell, server: Server, chosen: Chosen) {
     [this.#shell, this.#server, this.#chosen] = [shell, server, chosen];
@@ -61,7 +69,7 @@ export class ServedModels {
       save: () => this.#save(),
       exportPage: () => this.#export(),
       choose: () => chosen.choose(),
-      pose: () => this.#pose(),
+      show: () => this.#show(),
     };
     const tried = Object.entries(acts).map(([name, act]) => [name, () => void chosen.try(act)]);
     this.panel = new ComputePanel(Object.fromEntries(tried));
@@ -77,34 +85,48 @@ export class ServedModels {
   }
 
   get isPosing(): boolean {
-    return this.#posing !== null;
+    return this.#view !== null;
   }
 
   /** Takes the server's own model, which the page poses. */
   adopt(content: PosingModel, view: PosingView): View {
-    [this.#model, this.#posing, this.#isOwn] = [{ number: 0, content }, view, true];
+    [this.#model, this.#view, this.#isOwn] = [{ number: 0, content }, view, true];
     this.update();
     return { ...view, panel: [this.panel.element, ...view.panel] };
   }
 
   /** Forgets the models of another body. */
   clear(): void {
-    this.#model = null;
+    this.#model = this.#before = null;
     this.panel.clear();
   }
 
   /** Before another view. */
   leave(): void {
-    if (this.#posing) [this.motions, this.#timeline] = [this.#posing.motions, this.#posing.timeline];
-    [this.#posing, this.#isOwn] = [null, false];
+    this.state = this.#view?.state ?? this.state;
+    [this.#view, this.#isOwn] = [null, false];
     this.improving.forget();
   }
 
   /** Asks the server for models. Refused without a connection. */
   order(request: Request): void {
     this.job.order(this.#server.send(request));
+    if (request.type === "compute") this.#begin();
     this.panel.begin();
     this.update();
+  }
+
+  /** Makes room for models of other handles: the present model is back if there is none of them. */
+  #begin(): void {
+    this.#before = this.#model ?? this.#before;
+    this.#model = null;
+    // motions are of the handles before, and keys of a blend are of poses
+    this.state = this.#before?.content.kind === "interpolation" ? {} : { timeline: this.state.timeline };
+    this.panel.clear();
+  }
+
+  #restore(): void {
+    this.#model ??= this.#before;
   }
 
   progress(progress: Progress): void {
@@ -123,18 +145,19 @@ export class ServedModels {
     const isFirst = this.#model === null;
     if (sent.kept?.length) this.improving.arrived();
     // set after posing has the model, because polishing uses its number
-    await this.#posing?.replace(content);
+    if (content.kind === "posing") await this.#view?.replace?.(content);
     this.#model = { number: sent.number, content };
     this.#chosen.add(sent.kept ?? []);
-    this.panel.model(sent);
+    if (sent.request) this.panel.model(sent); // others were not computed here
     if (sent.final) this.job.end(sent.request);
-    if (isFirst && !this.#chosen.staysChoosing) await this.#pose();
+    if (isFirst && !this.#chosen.staysChoosing) await this.#show();
     this.update();
   }
 
   /** Whether the failed request was for models. */
   fails(request: number, message: string): void {
     if (!this.job.fails(request)) return;
+    this.#restore();
     this.panel.fault(message);
     this.improving.failed();
     this.update();
@@ -142,10 +165,10 @@ export class ServedModels {
 
   update(): void {
     this.panel.update({
-      isChoosing: this.#posing === null,
+      isChoosing: this.#view === null,
       lacking: this.#chosen.lacking,
       isRunning: this.job.isRunning,
-      hasModel: this.#model !== null,
+      model: this.#model?.content.kind ?? null,
       hasChooser: this.#isOwn,
     });
     // nothing is there to be saved before the server's own model is improved
@@ -153,16 +176,27 @@ export class ServedModels {
     this.panel.element.hidden = isAsOpened && !this.panel.hasFault;
   }
 
-  /** The view in which the newest model is posed. */
-  async #pose(): Promise<void> {
-    const { stage, module } = this.#shell;
+  /** The view in which the newest model is posed or blended. */
+  async #show(): Promise<void> {
+    const { stage } = this.#shell;
     const { content } = this.#model!;
     this.#chosen.leave();
+    const module = await this.#shell.module;
     const polish = polishAt(this.#server, () => this.number);
-    const { motions, improving } = this;
-    const own = { up: stage.up, keepView: true, polish, motions, timeline: this.#timeline, improving };
-    const view = await posingView(stage, await module, content, { ...this.#shell.options(stage.up), ...own });
-    this.#posing = view;
+    const { state, improving } = this;
+    const options = {
+      ...this.#shell.options(stage.up),
+      up: stage.up,
+      keepView: true,
+      ...state,
+      polish,
+      improving,
+    };
+    const view =
+      content.kind === "posing"
+        ? await posingView(stage, module, content, options)
+        : await blendingView(stage, module, content, options);
+    this.#view = view;
     this.#shell.show({ ...view, panel: [this.panel.element, ...view.panel] }, content.name);
     this.update();
   }
@@ -182,6 +216,7 @@ export class ServedModels {
     await this.#server.ask({ type: "cancel" }, "cancelled");
     if (request !== this.job.request) return; // another one has begun since
     this.job.end(request);
+    this.#restore();
     this.improving.cancelled();
     this.update();
   }
@@ -201,6 +236,6 @@ export class ServedModels {
 
   /** The keys that were made on the page, also while another view is shown. */
   get #keys(): string | null {
-    return this.#posing ? this.#posing.timeline : this.#timeline;
+    return (this.#view?.state ?? this.state).timeline ?? null;
   }
 }

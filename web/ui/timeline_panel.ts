@@ -109,18 +109,14 @@ export class TimelinePanel<State> {
     this.#take(this.#timeline.map(other));
   }
 
-  /** Takes the timeline that a model came with; the shape stays. */
-  load(content: unknown): void {
+  /** Takes the content of a file, else the timeline that the model came with; the shape stays. */
+  begin(text: string | null | undefined, own: unknown): void {
+    if (!text && own === undefined) return;
     try {
-      this.#take(timelineOf(content, this.#states));
+      this.#take(text ? readTimeline(text, this.#states) : timelineOf(own, this.#states));
     } catch (error) {
       this.#fault.textContent = (error as Error).message;
     }
-  }
-
-  /** Takes the content of a file in the same way. */
-  read(text: string): void {
-    this.load(JSON.parse(text));
   }
 
   /** The states of all keys. */

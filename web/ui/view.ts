@@ -12,6 +12,8 @@ export interface View {
   readonly label: string;
   /** For scripts and tests, as `window.snapspace`. */
   readonly script: Record<string, unknown>;
+  /** Where another view of the same model goes on; missing in views of no model. */
+  readonly state?: ViewState;
   dispose(): void;
 }
 
@@ -40,3 +42,6 @@ export interface ViewOptions {
   /** Improves frames when a handle is let go. */
   readonly polish?: Polish;
 }
+
+/** What a view of a model begins with. */
+export type ViewState = Pick<ViewOptions, "motions" | "blend" | "timeline">;

@@ -10,7 +10,7 @@ import { partMessages } from "../engine/parts.ts";
 import type { PosingModel } from "../engine/index.ts";
 import type { Workspace as Given } from "../engine/messages.ts";
 import type { RestMesh } from "../engine/rest_mesh.ts";
-import { CHOOSING, keepHash, motionsOf } from "./address.ts";
+import { CHOOSING, keepHash, stateOf } from "./address.ts";
 import { ConnectionNotice } from "./connection_notice.ts";
 import { samplingOf, type Sampling } from "./choosing_sampling.ts";
 import { choosingView } from "./choosing_view.ts";
@@ -20,7 +20,7 @@ import { nextTask } from "./next_task.ts";
 import type { PosingView } from "./posing_view.ts";
 import { readable, type AppShell } from "./app_shell.ts";
 import { ServedModels } from "./served_models.ts";
-import type { View } from "./view.ts";
+import type { View, ViewState } from "./view.ts";
 import { Refused, type Server } from "./server.ts";
 import { ReadingBox } from "./workspace_reading.ts";
 import { WorkspaceSurface } from "./workspace_surface.ts";
@@ -66,7 +66,7 @@ export class Workspace {
         return workspace.#staysChoosing;
       },
       compute: () => this.#compute(),
-      leave: () => this.#leave(),
+      leave: () => this.leave(),
       choose: () => (this.#mesh ? this.#backToChoosing() : this.edit()),
       send: () => this.#sendChoice(),
       add: (kept) => {
@@ -103,9 +103,20 @@ export class Workspace {
     window.addEventListener("pagehide", () => this.#keep());
   }
 
-  /** Starts choosing handles on the body of the server's own model. */
-  edit(): void {
-    void this.#try(() => void this.#server.send({ type: "edit" }));
+  /** Starts choosing handles on the body of a model, the server's own one or that of a file; `state` is where it is left. */
+  edit(state: ViewState = {}, file?: File): void {
+    void this.#try(() => {
+      if (file) this.upload(file);
+      else this.#server.send({ type: "edit" });
+      this.#staysChoosing = true;
+      this.#models.state = state;
+    });
+  }
+
+  /** Leaves the view that is shown, before another one. */
+  leave(): void {
+    this.#models.leave();
+    this.#shell.clear();
   }
 
   /** The number of the model that is shown, at the server. */
@@ -132,7 +143,7 @@ export class Workspace {
     this.#given = given;
     if (given.kind === "model") {
       // the page shows it, or a better one that follows
-      if (!models.isPosing) models.motions = motionsOf(location.hash);
+      if (!models.isPosing) models.state = stateOf(location.hash);
       models.job.set(given.job ?? 0, given.is_running ?? false);
       models.update();
       return;
@@ -149,7 +160,7 @@ export class Workspace {
     if (given.kind === "surface") {
       if (this.#isBack) return; // its tets follow
       this.#mesh = null;
-      await this.#surface.look(given, () => this.#leave());
+      await this.#surface.look(given, () => this.leave());
       this.#reading.fill(given);
       return;
     }
@@ -170,14 +181,15 @@ export class Workspace {
     }
     this.#isBack = false;
     this.#reading.done();
-    const scene = await this.#surface.scene(given, () => this.#leave());
+    const scene = await this.#surface.scene(given, () => this.leave());
     this.#mesh = { ...scene.mesh, diagonal: given.diagonal };
     this.#choice = choiceOf(given.handles, given.parts);
     this.#sampling = samplingOf(given);
     models.clear();
     models.job.set(given.job ?? 0, given.is_running ?? false);
-    models.motions = motionsOf(location.hash); // after a reload
+    if (!before) models.state = stateOf(location.hash); // after a reload
     await this.#choosing(scene);
+    if (this.#staysChoosing) keepHash(() => CHOOSING);
     if (before?.kind === "surface") this.#keepSoon(); // what points up
   }
 
@@ -200,7 +212,7 @@ export class Workspace {
   /** The view in which handles are chosen; made and shown in several tasks, because the mesh may be large. */
   async #choosing(given: MeshScene | null = null): Promise<void> {
     const [stage, mesh] = [this.#shell.stage, this.#mesh!];
-    if (!given) this.#leave();
+    if (!given) this.leave();
     const options = { up: stage.up, forceCpu: true, keepView: true };
     const scene = given ?? (await MeshScene.create(stage, mesh, options));
     scene.onUp = () => this.#keepSoon();
@@ -222,7 +234,7 @@ export class Workspace {
       { choose: onChoice, fill: () => this.#reopen(null) },
     );
     await nextTask();
-    if (given) this.#leave(); // now, so that its surface stays visible
+    if (given) this.leave(); // now, so that its surface stays visible
     this.#surface.show(view, mesh.name);
     this.#models.update();
   }
@@ -248,19 +260,12 @@ export class Workspace {
     this.#server.send({ type: "keep", handles, parts, ...sampling, up: this.#shell.stage.up });
   }
 
-  #leave(): void {
-    this.#models.leave();
-    this.#shell.clear();
-  }
-
   async #compute(): Promise<void> {
     const models = this.#models;
     if (!models.panel.isValid()) return;
     await this.#sendChoice();
     const { translation: _, angle: __, thickness: ___, ...wanted } = this.#sampling!;
-    models.clear();
     this.#staysChoosing = false;
-    models.motions = new Map(); // they are of the handles before
     keepHash(() => "");
     this.#keep();
     models.order({ type: "compute", ...wanted });

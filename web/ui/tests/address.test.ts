@@ -23,7 +23,8 @@ test("a pose comes back out of its hash, whatever its handles are called", () =>
 test("at rest there is no hash", () => assert.equal(poseHash(new Map([["foot", REST]])), ""));
 
 test("a blend comes back", () => {
-  const hash = new URL(blendHash(["run; sit", "b"], [0.25, 0.75]), "http://localhost/").hash;
+  const hash = new URL(blendHash({ names: ["run; sit", "b"], weights: [0.25, 0.75] }), "http://localhost/")
+    .hash;
   assert.deepEqual(blendOf(hash), { names: ["run; sit", "b"], weights: [0.25, 0.75] });
 });
 
