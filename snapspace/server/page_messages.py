@@ -75,9 +75,12 @@ class Cancel:
     """Page: stop filling or computing. Models and solved samples are kept.
 
     Answered by `Cancelled`, even if nothing is running.
+
+    upload : stop only the reading of an upload, which has not replaced anything yet
     """
 
     request: int
+    upload: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -146,7 +146,9 @@ class Workspace:
         elif isinstance(message, messages.Compute | messages.Extend):
             self._compute(message)
         elif isinstance(message, messages.Cancel):
-            if not self._jobs.stop_reading():
+            if message.upload:
+                self._jobs.stop_reading()
+            else:
                 self._surface = None
                 self._jobs.end_work()
             self._emit(messages.Cancelled(request=message.request))

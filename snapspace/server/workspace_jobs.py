@@ -51,12 +51,10 @@ class WorkspaceJobs:
         self.stop_reading()
         self._reading = Job(work, failed=lambda error: self._failed(0, error))
 
-    def stop_reading(self) -> bool:
-        """Stops the reading of an upload, without waiting; returns whether there was one."""
-        was_reading = self._reading is not None and self._reading.running
+    def stop_reading(self) -> None:
+        """Stops the reading of an upload, without waiting."""
         if self._reading is not None:
             self._reading.stop()
-        return was_reading
 
     def check(self, work: Callable[[], None], *, request: int) -> None:
         """Begins a check in place of the last one."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +10,6 @@ import pytest
 from numpy.typing import NDArray
 
 from snapspace import PosingModel, load, read_problem
-from snapspace.generators import bar
-from snapspace.mesh import write_tets
 from snapspace.timeline import timeline_of
 
 from .choosing_page import (
@@ -32,13 +29,6 @@ from .pages import SECONDS, OpenPage, Page
 from .serving import served
 from .test_posing_page import assert_shown
 from .test_take_away import taken
-
-
-@pytest.fixture(scope="module")
-def empty(tmp_path_factory: pytest.TempPathFactory, chromium: object) -> Iterator[str]:
-    """A server without a mesh."""
-    with served(cwd=tmp_path_factory.mktemp("empty")) as address:
-        yield address
 
 
 @pytest.fixture
@@ -205,51 +195,6 @@ def test_a_problem_shows_its_handles(bar_folder: Path, opened: OpenPage) -> None
         assert page.page.get_by_label("Turn, plus or minus").last.input_value() == "20"
         assert page.page.get_by_role("button", name="Compute").is_enabled()
         page.close()  # before its server, which it would miss
-
-
-def test_a_mesh_is_uploaded(empty: str, tmp_path: Path, opened: OpenPage) -> None:
-    mesh = bar(12, 10, 10)
-    write_tets(tmp_path / "body.mesh", mesh)
-    page = opened(empty)
-    assert "Drop a mesh here" in page.text("#message")
-    page.page.set_input_files("#message input", tmp_path / "body.mesh")
-    page.wait("snapspace.kind === 'choosing'")
-    assert page.text(".hud h1") == "body"
-    assert f"{len(mesh.vertices):,} vertices" in page.text(".hud")
-
-
-def test_a_bad_mesh_is_reported(
-    empty: str, tmp_path: Path, opened: OpenPage, bar_folder: Path
-) -> None:
-    bad = tmp_path / "bad.mesh"
-    bad.write_text("MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n", encoding="utf-8")
-    page = opened(empty)
-    page.page.set_input_files("#message input", bad)
-    page.wait("Boolean(document.querySelector('#message [role=alert]'))")
-    assert "bad.mesh" in page.text("#message")
-    page.page.set_input_files("#message input", bar_folder / "bar.mesh")
-    page.wait("snapspace.kind === 'choosing'")
-
-
-def test_a_bad_file_that_is_dropped_leaves_handles_and_model(page: Page) -> None:
-    chosen = handles(page)
-    compute(page)
-    wait_for_text(page, "#panel", "Done in")
-    page.run(
-        """(() => {
-            const files = new DataTransfer();
-            files.items.add(new File(["v 0 0 0\\nf 1 1 9\\n"], "bad.obj"));
-            document.dispatchEvent(new DragEvent("drop", { dataTransfer: files }));
-        })()"""
-    )
-    page.wait("Boolean(document.querySelector('#message [role=alert]'))")
-    assert "bad.obj: line 2: a face has vertex index 9" in page.text("#message")
-    press(page, "Close")
-    page.drag(page.run("snapspace.handle(1)"), 30, -20)
-    assert np.linalg.norm(page.motions()[1][1]) > 0.02
-    press(page, "Choose handles")
-    page.wait("snapspace.kind === 'choosing'")
-    assert handles(page) == chosen
 
 
 def test_the_end_of_the_server_is_told_and_posing_goes_on(

@@ -243,8 +243,9 @@ def test_cancelling_the_reading_of_a_file_leaves_the_computation(
     workspace, mailbox = opened(settings)
     workspace.receive(ORDER)
     workspace.upload(tmp_path / "a" / "slow.obj")
-    workspace.receive(Cancel(request=3))
+    workspace.receive(Cancel(request=3, upload=True))
     mailbox.wait_for(Cancelled, request=3)
+    workspace.receive(Cancel(request=4, upload=True))  # none has arrived
     release.set()
     mailbox.wait_for(Model, final=True)
     workspace.close()

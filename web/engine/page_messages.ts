@@ -114,10 +114,13 @@ export interface Compute {
 /** Page: stop filling or computing. Models and solved samples are kept.
  *
  * Answered by `Cancelled`, even if nothing is running.
+ *
+ * upload : stop only the reading of an upload, which has not replaced anything yet
  */
 export interface Cancel {
   readonly type: "cancel";
   readonly request: number;
+  readonly upload?: boolean;
 }
 
 /** Page: save problem, newest model, and a mesh that is in no file yet. Answered by `Saved`.

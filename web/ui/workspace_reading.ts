@@ -18,7 +18,10 @@ export class ReadingBox {
   readonly #reopen: (thickness: number | null) => void;
   #clock = 0;
   #given: Given | null = null;
+  /** While a file is sent and read, which replaces nothing before it has been read. */
   #sending: AbortController | null = null;
+  /** Shows again what was there before a file was sent. */
+  #back: () => void;
   #isShown = false;
   /** Whether the surface that is filled stays visible. */
   #isBelow = false;
@@ -27,12 +30,13 @@ export class ReadingBox {
     this.#shell = shell;
     this.#server = server;
     this.#reopen = reopen;
+    this.#back = () => shell.quiet();
   }
 
   /** Asks for a mesh. */
   ask(given: Given): void {
-    this.#given = given;
-    this.#isShown = this.#isBelow = false;
+    this.#now(given, () => this.ask(given));
+    this.#isShown = false;
     clearInterval(this.#clock);
     const formats = h(
       "p",
@@ -43,6 +47,8 @@ export class ReadingBox {
   }
 
   async upload(file: File, given: Given): Promise<void> {
+    this.#sending?.abort();
+    const sending = (this.#sending = new AbortController());
     this.#given = given;
     const known = [...SURFACES, ...TETS, ".snapspace"];
     if (!known.some((suffix) => file.name.toLowerCase().endsWith(suffix))) {
@@ -57,7 +63,6 @@ export class ReadingBox {
       );
       return;
     }
-    this.#sending = new AbortController();
     const address = this.#server.address("mesh", { workspace: given.id, name: file.name });
     this.#show(`Sending ${file.name}`);
     const onProgress = (done: number, total: number) =>
@@ -69,7 +74,7 @@ export class ReadingBox {
         error: null,
       });
     try {
-      await sendFile(address, file, onProgress, this.#sending.signal);
+      await sendFile(address, file, onProgress, sending.signal);
     } catch (error) {
       this.failed((error as Error).message);
     }
@@ -77,14 +82,13 @@ export class ReadingBox {
 
   /** Shows that the server reads a mesh. */
   wait(given: Given): void {
-    this.#given = given;
-    this.#isBelow = false;
+    this.#now(given, () => this.wait(given));
     this.#show(`Opening ${given.name}`);
   }
 
   /** Shows, below its surface, that the server fills it. */
   fill(given: Given): void {
-    this.#given = given;
+    this.#now(given, () => this.fill(given));
     if (!this.#isShown) this.#begin();
     this.#isBelow = true;
     this.#tell(`Filling ${given.name} with tets`);
@@ -93,8 +97,15 @@ export class ReadingBox {
 
   /** There is a mesh, and the box is not needed. */
   done(): void {
-    this.#isShown = this.#isBelow = false;
+    this.#now(this.#given, () => this.#shell.quiet());
+    this.#isShown = false;
     clearInterval(this.#clock);
+  }
+
+  /** The state of the workspace, and what shows it. */
+  #now(given: Given | null, show: () => void): void {
+    [this.#given, this.#back, this.#sending] = [given, show, null];
+    this.#isBelow = false;
   }
 
   progress(progress: Progress): void {
@@ -107,6 +118,8 @@ export class ReadingBox {
   }
 
   failed(message: string): void {
+    if (this.#isBelow && !this.#sending) this.#back = () => this.failed(message); // to fill the surface
+    this.#sending = null;
     this.#isShown = false;
     clearInterval(this.#clock);
     this.#shell.showMessage(message.replace(/^snapspace: /, ""), true, ...this.#asShell(), this.#picker());
@@ -150,9 +163,12 @@ export class ReadingBox {
 
   #cancel(): void {
     this.#isShown = false;
+    clearInterval(this.#clock);
+    const upload = this.#sending !== null;
     this.#sending?.abort();
-    if (this.#server.isOpen) this.#server.send({ type: "cancel" });
-    if (this.#given) this.ask(this.#given);
+    if (this.#server.isOpen) this.#server.send({ type: "cancel", upload });
+    if (upload) this.#back();
+    else if (this.#given) this.ask(this.#given);
   }
 
   #picker(): HTMLElement {
