@@ -19,7 +19,13 @@ def path_figures(shapes: Sequence[BlendedShape], jumps: Sequence[PathJump]) -> d
     return {
         "motions": [float(np.linalg.norm(step, axis=1).max()) for step in steps],
         "jumps": [
-            {"frame": jump.frame, "weights": jump.weights.tolist(), "motion": jump.motion}
+            {
+                "frame": jump.frame,
+                "weights": jump.weights.tolist(),
+                "motion": jump.motion,
+                "deformation": jump.deformation,
+                "turns": jump.turns,
+            }
             for jump in jumps
         ],
     }
@@ -37,7 +43,14 @@ def notice_jumps(jumps: Sequence[PathJump]) -> None:
     """Prints a notice for each jump."""
     for jump in jumps:
         weights = ",".join(f"{w:.4g}" for w in jump.weights)
-        notice(
-            f"notice: the shape jumps by {jump.motion:.3g} before frame {jump.frame}, at --weights "
-            f"{weights}, however small the step; add poses between those of the path"
-        )
+        where = f"by {jump.motion:.3g} before frame {jump.frame}, at --weights {weights}"
+        if jump.turns:
+            notice(
+                f"notice: the body turns as a whole {where}, however small the step; placed on "
+                f"each other, the two shapes differ by {jump.deformation:.3g}"
+            )
+        else:
+            notice(
+                f"notice: the shape jumps {where}, however small the step; add poses between those "
+                "of the path"
+            )

@@ -17,6 +17,9 @@ FloatArray = NDArray[np.float64]
 FINER = 2
 #: A motion of more than this many even steps that no step of the weights divides is a jump.
 JUMP = 4
+#: A jump is a turn of the whole body if no more than this share of its motion, and no jump, is left
+#: once the two shapes are placed on each other.
+TURN = 0.25
 
 
 @dataclass(frozen=True)
@@ -30,11 +33,18 @@ class PathFrame:
 
 @dataclass(frozen=True)
 class PathJump:
-    """The shape jumps by `motion`, a length, at `weights`, before frame number `frame`."""
+    """The shape jumps at `weights`, before frame number `frame`.
+
+    motion : largest motion of a vertex
+    deformation : the same once the two shapes are placed on each other
+    turns : whether the body only turns as a whole, so that little is left of the motion
+    """
 
     frame: int
     weights: FloatArray
     motion: float
+    deformation: float
+    turns: bool
 
 
 @dataclass(frozen=True)
@@ -53,11 +63,13 @@ class Leg:
     lengths : (len(places),), how far the shape has moved at each point; jumps do not count, so no
         frame lies inside one
     jumps : jumps of the shape
+    farthest : the longest motion that is no jump
     """
 
     places: list[PathPoint]
     lengths: FloatArray
     jumps: list[Jump]
+    farthest: float
 
 
 def even_path(model: InterpolationModel, session: BlendingSession, frames: int) -> EvenPath:
@@ -79,8 +91,28 @@ def even_path(model: InterpolationModel, session: BlendingSession, frames: int) 
         for jump in leg.jumps:
             share = jump.after.share
             frame = next(n for n, place in enumerate(places) if place[:2] >= (k, share))
-            jumps.append(PathJump(frame, _weights(poses, k, share), jump.motion))
+            deformation = _deformation(model, jump)
+            jumps.append(
+                PathJump(
+                    frame,
+                    _weights(poses, k, share),
+                    jump.motion,
+                    deformation,
+                    turns=deformation <= min(TURN * jump.motion, leg.farthest),
+                )
+            )
     return EvenPath(shown, jumps)
+
+
+def _deformation(model: InterpolationModel, jump: Jump) -> float:
+    """The largest motion of a vertex in a jump, once the two shapes are placed on each other."""
+    subspace = model.subspace
+    before, after = (
+        subspace.tau + subspace.basis[:, : len(place.q)] @ place.q
+        for place in (jump.before, jump.after)
+    )
+    moved = model.problem.aligned(after, before) - before
+    return float(np.linalg.norm(moved.reshape(-1, 3), axis=1).max())
 
 
 def _divided(legs: list[Leg], frames: int) -> list[tuple[int, float]]:
@@ -113,6 +145,7 @@ def _traced(model: InterpolationModel, session: BlendingSession, frames: int) ->
     # no path is shorter than these straight lines
     straight = np.linalg.norm(np.diff(shapes, axis=0), axis=2).max(axis=1)
     even = max(float(straight.sum()), 1e-9 * model.problem.mesh.diagonal) / (frames - 1)
+    farthest = JUMP * even
     basis = model.subspace.basis
 
     def motion(first: FloatArray, second: FloatArray) -> float:
@@ -133,7 +166,7 @@ def _traced(model: InterpolationModel, session: BlendingSession, frames: int) ->
             q,
             length=float(straight[k]),
             even=even / FINER,
-            jump=JUMP * even,
+            jump=farthest,
         )
         places, lengths, jumps = [walk.at], [0.0], []
         while walk.at.share < 1:
@@ -145,7 +178,7 @@ def _traced(model: InterpolationModel, session: BlendingSession, frames: int) ->
             places.append(walk.at)
             moved = 0.0 if jump is not None else motion(before.q, walk.at.q)
             lengths.append(lengths[-1] + moved)
-        legs.append(Leg(places, np.array(lengths), jumps))
+        legs.append(Leg(places, np.array(lengths), jumps, farthest))
         q = walk.at.q
     return legs
 

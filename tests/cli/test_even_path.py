@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from snapspace import InterpolationProblem, StVK, load, reduce, snapshot_pca, solve_snapshots
 from snapspace.cli.even_path import whole_steps
-from snapspace.generators import bar
+from snapspace.generators import bar, cylinder, helix
 from snapspace.problem import Poses
 
 from ..shapes import bent
@@ -65,6 +66,49 @@ def test_poses_are_frames_if_there_are_enough(run: Run, blend_model: Path, frame
     assert len(weights) == frames
     assert (weights[0], weights[-1]) == ([1, 0, 0], [0, 0, 1])
     assert ([0, 1, 0] in weights) == (frames > 2)
+
+
+def distances(vertices: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Of each vertex from each other, (n, n)."""
+    between: NDArray[np.float64] = np.linalg.norm(vertices[:, None] - vertices, axis=2)
+    return between
+
+
+@pytest.fixture
+def turning_model(tmp_path: Path) -> Path:
+    """A slender cylinder that winds up and is twisted: it jumps once, and once turns as a whole."""
+    size = {"length": 8.0, "radius": 0.2}
+    wound = helix(1, 16, **size, turns=3.0, twist=6.0, coil_radius=0.4)
+    problem = InterpolationProblem([cylinder(1, 16, **size), wound])
+    snapshots = solve_snapshots(problem, np.linspace([1.0, 0.0], [0.0, 1.0], 21), threads=1)
+    subspace = snapshot_pca(snapshots, dimension=12)
+    path = tmp_path / "wound.snapspace"
+    reduce(problem, subspace, snapshots=snapshots, threads=1).save(path)
+    return path
+
+
+def test_a_turn_of_the_whole_body_is_told_from_a_jump_of_the_shape(
+    run: Run, turning_model: Path
+) -> None:
+    result = run("blend", turning_model, "--path", 40, "--json")
+    jump, turn = result.json["path"]["jumps"]
+    assert (jump["turns"], turn["turns"]) == (False, True)
+    assert jump["deformation"] > 0.4 * jump["motion"]
+    assert turn["deformation"] < 0.1 * turn["motion"] and turn["motion"] > jump["motion"]
+    first, second = (line for line in result.err.splitlines() if "however small the step" in line)
+    assert "the shape jumps by" in first and first.endswith("add poses between those of the path")
+    assert "the body turns as a whole by" in second and "add poses" not in second
+
+    # vertices leap in a step of 1e-4, and keep their distances from each other
+    session, end, steps = load(turning_model).session(), turn["weights"][1], []
+    for share in np.append(np.linspace(0, end - 5e-3, 400), end - np.arange(49, -1, -1) * 1e-4):
+        before = session.vertices
+        session.blend([1 - share, share])
+        steps.append((before, session.vertices))
+    before, after = max(steps[-3:], key=lambda step: np.abs(step[1] - step[0]).max())
+    moved = np.linalg.norm(after - before, axis=1).max()
+    assert moved > 0.9 * turn["motion"]
+    assert np.abs(distances(after) - distances(before)).max() < 0.05 * moved
 
 
 @pytest.fixture
