@@ -128,6 +128,7 @@ def build(
         threads=threads,
         tolerance=choice.tolerance(problem),
     )
+    choices.check_clamp(problem.solving.projection)
     recipe = replace(recipe, energy=energy, tets=tets)
     executor = click.get_current_context().with_resource(dask_executor(dask))
     source["options"] = given_options()

@@ -69,9 +69,15 @@ class Choices:
         for word in sorted(given & idle):
             solver = "fast" if word == "--settling" else "newton"
             raise ValueError(f"{word} is for --solver {solver}; leave it out, or change the solver")
-        if "--clamp" in given and self.projection not in (None, "stretches"):
+
+    def check_clamp(self, usual: Projection) -> None:
+        """ValueError for --clamp without the projection it is of; `usual` is the default one."""
+        given = {option.opts[0] for option in chosen_parameters()}
+        projection = self.projection or usual
+        if "--clamp" in given and projection != "stretches":
+            why = "" if self.projection else ", the default of this material"
             raise ValueError(
-                f"--clamp is for --projection stretches, not {self.projection}; leave it out"
+                f"--clamp is for --projection stretches, not {projection}{why}; leave it out"
             )
 
     def recipe(

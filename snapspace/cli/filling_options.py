@@ -50,6 +50,13 @@ def filling_of(edge_length: float | None, *, exact: bool) -> SurfaceFilling:
     return SurfaceFilling(edge_length=edge_length, exact=exact)
 
 
+def check_unfilled(filling: SurfaceFilling, why: str) -> None:
+    """ValueError if the user chose how a surface is filled, and none is."""
+    if filling != SurfaceFilling():
+        word = "--exact" if filling.exact else "--edge-length"
+        raise ValueError(f"{word} is for filling a surface with tets, but {why}; leave it out")
+
+
 def filled(file: SurfaceFile, filling: SurfaceFilling) -> tuple[TetMesh, bool]:
     """The tets inside a surface file, and whether they are fTetWild's, which differ in each run."""
     stages: set[str] = set()

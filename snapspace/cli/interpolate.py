@@ -17,7 +17,7 @@ from ..accurate import BLENDS, check_budget, check_target
 from ..cubature import FEWEST_BLENDS
 from ..fitting import DEVIATION, PoseFit, check_deviation
 from ..mesh import write_tets
-from ..problem import InterpolationProblem, Poses, Simplex
+from ..problem import InterpolationProblem, Poses, Simplex, usual_projection
 from ..registration import SCALE_POLICIES, ScalePolicy
 from .accurate_pipeline import chosen_build
 from .blend_material import blend_material, material_options
@@ -55,10 +55,8 @@ SAMPLES, DIMENSION = 40, 30
 @click.option(
     "--deviation",
     type=SHARE,
-    default=DEVIATION,
-    show_default=True,
     help="Rms distance at which surface fits end, relative to the diagonal; a larger one is "
-    "softer.",
+    f"softer [default: {DEVIATION:g}].",
 )
 @shell_option
 @click.option(
@@ -101,7 +99,7 @@ def interpolate(
     output: Path,
     tets: Path | None,
     edge_length: float | None,
-    deviation: float,
+    deviation: float | None,
     thickness: float | None,
     scale: ScalePolicy,
     accept_inverted: bool,
@@ -147,6 +145,7 @@ def interpolate(
     material = blend_material(kind, lam=lam, mu=mu, radius=radius, shell=thickness is not None)
     domain = Simplex(corners=len(files), extrapolation=extrapolation)
     recipe = choices.recipe(domain, dimension=DIMENSION, threads=threads, known=len(files))
+    choices.check_clamp(usual_projection(material, shell=thickness is not None))
     check_target(target_error)
     check_budget(budget)
     recipe = replace(recipe, tets=cubature_tets)
@@ -162,7 +161,8 @@ def interpolate(
             f"the energy is a cubature, which needs at least {FEWEST_BLENDS} samples, but there is "
             f"{choices.samples}; raise --samples, or use --material stvk"
         )
-    check_deviation(deviation)
+    if deviation is not None:
+        check_deviation(deviation)
     if save_poses is not None:
         make_folder(save_poses, option="--save-poses")
     executor = click.get_current_context().with_resource(dask_executor(dask))

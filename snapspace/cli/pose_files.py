@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..filling import fill_surface
-from ..fitting import PoseFit, fit_poses
+from ..fitting import DEVIATION, PoseFit, fit_poses
 from ..mesh import (
     EmbeddedSurface,
     TetMesh,
@@ -46,7 +46,8 @@ class PoseOptions:
     tets : file with the tets of the first pose's surface; None fills the surface
     edge_length : edge length of the tets that fill it, relative to the diagonal; None for the
         default
-    deviation : rms distance from the surfaces that fits aim at, relative to the diagonal
+    deviation : rms distance from the surfaces that fits aim at, relative to the diagonal; None for
+        the default
     thickness : of surfaces that are used as shells; None fills them
     scale : when to scale poses to the size of the first one
     accept_inverted : whether inverted tets in a pose are accepted
@@ -56,7 +57,7 @@ class PoseOptions:
 
     tets: Path | None
     edge_length: float | None
-    deviation: float
+    deviation: float | None
     thickness: float | None
     scale: ScalePolicy
     accept_inverted: bool
@@ -101,9 +102,16 @@ def read_poses(files: Sequence[Path], options: PoseOptions, cache: FitCache) -> 
         )
     if kinds == {True}:
         return _from_surfaces(files, names, options, cache)
-    if options.tets is not None or options.edge_length is not None:
-        name = "--tets" if options.tets is not None else "--edge-length"
-        raise ValueError(f"{name} is for poses that are surfaces, but these are tets; leave it out")
+    of_surfaces = {
+        "--tets": options.tets,
+        "--edge-length": options.edge_length,
+        "--deviation": options.deviation,
+    }
+    for name, value in of_surfaces.items():
+        if value is not None:
+            raise ValueError(
+                f"{name} is for poses that are surfaces, but these are tets; leave it out"
+            )
     return _from_tets(files, names, options)
 
 
@@ -141,6 +149,8 @@ def _from_tets(files: Sequence[Path], names: Sequence[str], options: PoseOptions
 def _from_surfaces(
     files: Sequence[Path], names: Sequence[str], options: PoseOptions, cache: FitCache
 ) -> PoseSet:
+    if options.repair and options.tets is None:
+        raise ValueError("--repair is for the mesh of --tets, and there is none; leave it out")
     surfaces = [read_surface(file) for file in files]
     check_same_faces(surfaces, names)
     faces = surfaces[0][1]
@@ -208,7 +218,8 @@ def _fitted(
     cache: FitCache,
 ) -> tuple[FloatArray, list[PoseFit]]:
     """Shapes (k, n, 3) fitted to the targets, some perhaps from the cache."""
-    settings = {"deviation": options.deviation}  # the cache depends on these
+    deviation = DEVIATION if options.deviation is None else options.deviation
+    settings = {"deviation": deviation}  # the cache depends on these
     found = {
         number: known
         for number, target in enumerate(targets)
@@ -233,7 +244,7 @@ def _fitted(
                     mesh,
                     surface,
                     targets[missing],
-                    deviation=options.deviation,
+                    deviation=deviation,
                     threads=options.threads,
                     progress=lambda done, _: progress(done_before + done, len(targets)),
                     on_finished=keep,

@@ -32,7 +32,7 @@ from ..problem import (
     read_problem_surface,
 )
 from .console import notice
-from .filling_options import filled
+from .filling_options import check_unfilled, filled
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,7 +83,7 @@ def problem_input(
         mesh_file = problem_surface_file(problem_file)
     shell = problem_thickness(problem_file) if thickness is None else thickness
     if shell is not None:
-        _check_unfilled(filling, "a shell is not filled")
+        check_unfilled(filling, "a shell is not filled")
         return _shell_input(problem_file, mesh_file, shell)
     if mesh_file is not None and mesh_file.suffix.lower() in SURFACE_SUFFIXES:
         file = open_surface(mesh_file).compact()
@@ -92,18 +92,11 @@ def problem_input(
         surface = embed_file(file, tets, farthest=WHOLE_DIAGONAL)
         source = _source(problem_file, mesh_file)
         return ProblemInput(problem=problem, surface=surface, source=source)
-    _check_unfilled(filling, f"{mesh_file or 'the mesh of the problem'} has tets already")
+    check_unfilled(filling, f"{mesh_file or 'the mesh of the problem'} has tets already")
     given = None if mesh_file is None else read_tets(mesh_file, repair=repair)
     problem = read_problem(problem_file, mesh=given, repair=repair)
     own = read_problem_surface(problem_file, problem.mesh)
     return ProblemInput(problem=problem, surface=own, source=_source(problem_file, mesh_file))
-
-
-def _check_unfilled(filling: SurfaceFilling, why: str) -> None:
-    """ValueError if the user chose how a surface is filled, and none is."""
-    if filling != SurfaceFilling():
-        word = "--exact" if filling.exact else "--edge-length"
-        raise ValueError(f"{word} is for filling a surface with tets, but {why}; leave it out")
 
 
 def _shell_input(

@@ -11,9 +11,10 @@ import click
 
 from ..extras import need_extra
 from ..filling import SurfaceFilling
-from ..mesh import TET_SUFFIXES
+from ..mesh import SURFACE_SUFFIXES, TET_SUFFIXES
 from ..mesh.input_path import existing_file
 from ..model_file import SUFFIX
+from ..problem import problem_surface_file, problem_thickness
 from ..server import (
     MESH_SUFFIXES,
     PROBLEM_SUFFIX,
@@ -26,7 +27,7 @@ from ..server import (
 from ..server.serve import HOST
 from ..server.settings import UPLOAD_LIMIT
 from .console import notice
-from .filling_options import filling_of, filling_options
+from .filling_options import check_unfilled, filling_of, filling_options
 from .loading import load_leading
 from .options import FILE, leading_option, shell_option, up_option
 
@@ -92,6 +93,8 @@ def view(
         filling = filling_of(edge_length, exact=exact)
     if file is not None:
         existing_file(file, known=(SUFFIX, PROBLEM_SUFFIX, *MESH_SUFFIXES))
+    _check_surface_options(file, filling, thickness)
+    if file is not None:
         if file.suffix.lower() == SUFFIX:
             model = load_leading(file, dimension)
         else:
@@ -119,11 +122,29 @@ def view(
     notice("stopped")
 
 
+def _check_surface_options(
+    file: Path | None, filling: SurfaceFilling | None, thickness: float | None
+) -> None:
+    """ValueError for options that say how a surface becomes a body, if FILE does not need them."""
+    suffix = "" if file is None else file.suffix.lower()
+    if thickness is not None and file is None:
+        raise ValueError("--shell is for a surface as FILE; the page has the same choice as Body")
+    if thickness is not None and suffix not in SURFACE_SUFFIXES:
+        raise ValueError(f"{file}: --shell is for surfaces; a problem file says its own thickness")
+    if file is None or filling is None:
+        return  # without FILE they are for what is dropped on the page
+    is_problem = suffix == PROBLEM_SUFFIX
+    if thickness is not None or (is_problem and problem_thickness(file) is not None):
+        check_unfilled(filling, "a shell is not filled")
+    if suffix == SUFFIX:
+        check_unfilled(filling, f"{file} is a model")
+    if suffix in TET_SUFFIXES or (is_problem and problem_surface_file(file) is None):
+        check_unfilled(filling, f"{file} has tets already")
+
+
 def _body(file: Path, filling: SurfaceFilling | None, thickness: float | None) -> SharedBody:
     """The body that the page starts with; its file is read now, to show errors here."""
     suffix = file.suffix.lower()
-    if suffix in (PROBLEM_SUFFIX, *TET_SUFFIXES) and thickness is not None:
-        raise ValueError(f"{file}: --shell is for surfaces; a problem file says its own thickness")
     if suffix == PROBLEM_SUFFIX:
         body = problem_body(file, filling=filling)
     elif suffix in TET_SUFFIXES:

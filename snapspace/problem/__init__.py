@@ -19,7 +19,7 @@ from .problem_file import (
 from .region import in_box, in_sphere
 from .shell_poses import ShellPoses
 from .simplex import Simplex
-from .solver_traits import Projection, SolverTraits
+from .solver_traits import Projection, SolverTraits, usual_projection
 from .surface_handles import handles_in_tets
 
 __all__ = [
@@ -51,5 +51,6 @@ __all__ = [
     "rigid_offset",
     "rotation_matrix",
     "solutions_beyond_tau",
+    "usual_projection",
     "usual_stiffness",
 ]

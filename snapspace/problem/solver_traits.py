@@ -109,7 +109,7 @@ def posing_traits(
         loose_tolerance=1e-3,
         settling=1e-2 if settles else 0.0,
         patience=None,
-        projection="clamp" if shell else _projection(material),
+        projection=usual_projection(material, shell=shell),
         far_apart=material.barrier,
         soft_modes=soft_modes,
         system_near=system_near,
@@ -118,9 +118,9 @@ def posing_traits(
     )
 
 
-def _projection(material: Material) -> Projection:
-    """The paper's where the material is the paper's."""
-    return "stretches" if isinstance(material, StVK) else "clamp"
+def usual_projection(material: Material, *, shell: bool) -> Projection:
+    """Newton's default projection: the paper's where the material is the paper's, and of tets."""
+    return "stretches" if isinstance(material, StVK) and not shell else "clamp"
 
 
 def _shear_share(material: Material) -> float:
@@ -146,7 +146,7 @@ def interpolation_traits(
         loose_tolerance=1e-6,
         settling=0.0,
         patience=PATIENCE,
-        projection="clamp" if shell else _projection(material),
+        projection=usual_projection(material, shell=shell),
         far_apart=True,
         soft_modes=lambda: None,
         system_near=system_near,

@@ -121,6 +121,12 @@ BUILDS: dict[str, tuple[Case, str]] = {
         lambda f: build(f, "--solver", "newton", "--projection", "absolute", "--clamp", 0.5),
         "--clamp is for --projection stretches, not absolute",
     ),
+    "clamp of the usual projection": (
+        lambda f: build(
+            f, "--solver", "newton", "--clamp", 0.5, material=material(model="stable-neo-hookean")
+        ),
+        "--clamp is for --projection stretches, not clamp, the default of this material; leave it",
+    ),
     "settling with newton": (
         lambda f: build(f, "--solver", "newton", "--settling", 0.1),
         "--settling is for --solver fast",

@@ -33,6 +33,10 @@ OUT_OF_RANGE: dict[str, tuple[list[object], str]] = {
     "samples": (["--samples", 4, "--dimension", 9], "dimension 9 needs at least as many samples"),
     "tolerance": (["--tolerance", "nan"], "tolerance is nan, but it must be positive"),
     "clamp": (["--solver", "newton", "--clamp", 2], "clamp is 2.0, but it must be in (0, 1]"),
+    "clamp of the usual projection": (
+        ["--solver", "newton", "--clamp", 0.5],
+        "--clamp is for --projection stretches, not clamp, the default of this material",
+    ),
     "edge length of tets": (["--edge-length", 0.1], "--edge-length is for filling the surface"),
 }
 
@@ -80,6 +84,20 @@ def test_tet_poses_are_not_repaired(run: Run, tmp_path: Path) -> None:
     assert error.startswith("--repair would repair each pose differently")
     assert error.endswith("repair the first one, and make the others from it")
     assert contents(tmp_path) == before
+
+
+@pytest.mark.parametrize("word", ["--edge-length", "--deviation"])
+def test_tet_poses_are_neither_filled_nor_fitted(run: Run, tmp_path: Path, word: str) -> None:
+    poses = write_tet_poses(tmp_path)
+    words = [*SMALL, word, 0.01, "-o", tmp_path / "m.snapspace"]
+    error = run("interpolate", *poses, *words).error
+    assert error == f"{word} is for poses that are surfaces, but these are tets; leave it out"
+
+
+def test_without_tets_of_its_own_there_is_nothing_to_repair(run: Run, tmp_path: Path) -> None:
+    poses = write_surface_poses(tmp_path)
+    error = run("interpolate", *poses, *SMALL, "--repair", "-o", tmp_path / "m.snapspace").error
+    assert error == "--repair is for the mesh of --tets, and there is none; leave it out"
 
 
 @pytest.mark.parametrize("turned", [False, True])

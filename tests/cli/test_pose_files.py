@@ -35,7 +35,7 @@ def options(**changes: Any) -> PoseOptions:
         "tets": None,
         "edge_length": None,
         "thickness": None,
-        "deviation": 1e-3,
+        "deviation": None,
         "scale": "auto",
         "accept_inverted": False,
         "repair": False,
