@@ -24,7 +24,7 @@ FALL = 0.9
 AIM = 1.5
 #: The same at least; if no dimension meets that, more samples are needed.
 MARGIN = 1.1
-#: Share of a plan's most dimensions beyond which tries aim no lower than they must: frames get slow.
+#: Beyond this share of a plan's most dimensions frames get slow: tries aim no lower than they must.
 AIMED = 0.8
 
 
