@@ -62,10 +62,11 @@ class MotionSpace:
         return float(np.linalg.norm(self.point(offsets) - self.point(others)))
 
     def is_jump(self, offsets: FloatArray, before: FloatArray) -> bool:
-        """Whether a motion is longer than the samples' spacing, yet near enough to interpolate."""
-        with np.errstate(over="ignore"):  # motions far beyond any use
-            length = self.distance(offsets, before)
-        return bool(self.spacing < length < FARTHEST * self.spacing)
+        """Whether a motion is longer than the samples' spacing, and ends near enough to them."""
+        with np.errstate(over="ignore", invalid="ignore"):  # motions far beyond any use
+            if self.distance(offsets, before) <= self.spacing:
+                return False
+            return bool(self.to_samples(offsets).min() < FARTHEST * self.spacing)
 
 
 def distances(a: FloatArray, b: FloatArray) -> FloatArray:

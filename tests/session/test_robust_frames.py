@@ -57,6 +57,23 @@ def test_any_motion_ends_soon_with_numbers(
     assert session.vertices == pytest.approx(fresh.vertices, abs=1e-2)
 
 
+@pytest.mark.parametrize("diagonals", [1e2, 1e4, 1e8])
+def test_a_session_comes_back_from_far_beyond_the_domain(
+    posing_model: PosingModel, diagonals: float
+) -> None:
+    """As after a translation in millimetres on a mesh in metres."""
+    near = {"head": ((0.1, 0.0, 0.2), (0.0, 0.1, 0.0))}
+    session, fresh = posing_model.session(), posing_model.session()
+    fresh.move_all(near)
+    far = diagonals * posing_model.problem.mesh.diagonal
+    session.move("head", translation=(0.0, 0.0, far))
+    report = session.move_all(near)
+    assert report.converged
+    assert report.start == "sample", "the last frame is no start: it is far from any solution"
+    tolerance = 1e-3 * posing_model.problem.mesh.diagonal
+    assert session.vertices == pytest.approx(fresh.vertices, abs=tolerance)
+
+
 @pytest.mark.parametrize("minimizer", ["newton", "bfgs"])
 @pytest.mark.parametrize("axis", range(3))
 def test_a_flip_converges_to_a_minimum(
