@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from .. import _core as core
+from .chosen_rows import chosen_rows
 
 FloatArray = NDArray[np.float64]
 
@@ -61,8 +62,9 @@ class DisplacementRows(Sequence[FloatArray]):
         return _read_only(row[:] if self._offset is None else row + self._offset)
 
     def select(self, which: ArrayLike) -> DisplacementRows:
-        """The rows that a mask (k,) selects."""
-        return self._with(tuple(self._rows[i] for i in np.flatnonzero(np.asarray(which, bool))))
+        """The rows that a mask (k,) or row numbers (c,) select; ValueError for anything else."""
+        chosen = chosen_rows(which, len(self), who="DisplacementRows.select")
+        return self._with(tuple(self._rows[i] for i in chosen))
 
     def followed_by(self, rows: Iterable[FloatArray]) -> DisplacementRows:
         """These rows followed by others (3n,); the offset of these rows is added to all.

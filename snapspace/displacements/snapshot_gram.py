@@ -11,6 +11,7 @@ from scipy.sparse import csr_array
 
 from ..blas import single_threaded_blas
 from ..problem import Problem
+from .chosen_rows import chosen_rows
 from .displacement_rows import DisplacementRows, shared_mass
 
 FloatArray = NDArray[np.float64]
@@ -61,10 +62,10 @@ class SnapshotGram:
         return self.select(np.ones(len(self), bool))
 
     def select(self, which: ArrayLike) -> SnapshotGram:
-        """The products of the rows that a mask (k,) selects; they can grow on their own."""
+        """The products of the rows that a mask (k,) or row numbers select; they can grow alone."""
         some = SnapshotGram(self.mass)
-        places = np.flatnonzero(np.asarray(which, bool))
-        some._rows, some._matrix = self._rows.select(which), self._matrix[np.ix_(places, places)]
+        places = chosen_rows(which, len(self), who="SnapshotGram.select")
+        some._rows, some._matrix = self._rows.select(places), self._matrix[np.ix_(places, places)]
         return some
 
     def add(self, rows: Iterable[FloatArray], *, threads: int = 0) -> None:

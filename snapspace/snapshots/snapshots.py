@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..displacements import DisplacementRows, SnapshotGram
+from ..displacements import DisplacementRows, SnapshotGram, chosen_rows
 from ..mesh import TetMesh, shape_rows
 from ..problem import Problem
 
@@ -135,11 +135,29 @@ class Snapshots:
         gram.add(self.displacements, threads=threads or 0)
         return replace(self, gram=gram)
 
-    def select(self, which: NDArray[np.bool_]) -> Snapshots:
-        """The samples selected by a mask (k,); displacements are shared, not copied."""
-        reports = [report for report, keep in zip(self.reports, which, strict=True) if keep]
-        rows = self.displacements.select(which)
-        return Snapshots(self.problem, self.parameters[which], rows, reports)
+    def select(self, which: ArrayLike) -> Snapshots:
+        """Some of the samples; displacements are shared, not copied, and `gram` is left out.
+
+        Parameters
+        ----------
+        which : array_like
+            A boolean mask (k,), or numbers of samples (c,) in the wanted order.
+
+        Raises
+        ------
+        ValueError
+            For a mask of another length, a number that is not between 0 and k - 1, or anything
+            else.
+
+        Examples
+        --------
+        >>> snapshots.select(snapshots.converged)
+        >>> snapshots.select([0, 1, 2])
+        """
+        chosen = chosen_rows(which, len(self), who="Snapshots.select")
+        reports = [self.reports[sample] for sample in chosen]
+        rows = self.displacements.select(chosen)
+        return Snapshots(self.problem, self.parameters[chosen], rows, reports)
 
     def joined(self, others: Snapshots) -> Snapshots:
         """These samples, followed by those of another run.

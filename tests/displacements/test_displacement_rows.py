@@ -55,6 +55,7 @@ def test_rows_blocks_and_selections(store: Callable[[Path], FloatArray], tmp_pat
         (rows[2:6], MATRIX[2:6]),
         (rows[::-2], MATRIX[::-2]),
         (rows.select(mask), MATRIX[mask]),
+        (rows.select([5, 0, 5]), MATRIX[[5, 0, 5]]),
         (rows.shifted(offset).select(mask)[1:], MATRIX[mask][1:] + offset),
         (rows[:0], MATRIX[:0]),
         (rows[:2].followed_by(rows[5:]), MATRIX[[0, 1, 5, 6]]),

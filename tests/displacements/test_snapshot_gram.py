@@ -113,6 +113,7 @@ def test_selected_rows_have_the_products_of_these_rows_and_grow_alone() -> None:
     again = gram(mass, np.vstack([rows[:7][which], rows[7:]]))
     np.testing.assert_array_equal(some.matrix, again.matrix)
     assert len(every) == 7
+    np.testing.assert_array_equal(every.select([4, 1]).matrix, every.matrix[np.ix_([4, 1], [4, 1])])
 
 
 def test_a_copy_grows_alone() -> None:

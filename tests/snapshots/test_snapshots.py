@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
+from numpy.typing import ArrayLike
 
 from snapspace import Snapshots, carry_over, snapshot_pca, solve_snapshots
 
@@ -35,6 +38,33 @@ def test_joined_snapshots_have_the_samples_of_both_in_order(
         np.testing.assert_array_equal(chosen.parameters, part.parameters)
         np.testing.assert_array_equal(chosen.shapes, part.shapes)
         assert chosen.reports == list(part.reports)
+
+
+def test_samples_are_selected_by_number_in_the_given_order(fresh: Snapshots) -> None:
+    order = [3, 0, 2, 1]  # as many as there are samples: a mask of ones and a zero drops one
+    chosen = fresh.select(order)
+    np.testing.assert_array_equal(chosen.parameters, fresh.parameters[order])
+    np.testing.assert_array_equal(chosen.shapes, fresh.shapes[order])
+    assert chosen.reports == [fresh.reports[sample] for sample in order]
+    np.testing.assert_array_equal(fresh.select(range(2)).shapes, fresh.shapes[:2])
+    assert len(fresh.select([])) == 0
+
+
+@pytest.mark.parametrize(
+    ("which", "reason"),
+    [
+        (np.ones(3, bool), "Snapshots.select: the mask has 3 entries, but there are 4"),
+        ([0, 4], "Snapshots.select: 4 is not between 0 and 3"),
+        ([-1], "Snapshots.select: -1 is not between 0 and 3"),
+        ([0.0, 1.0], "needs a boolean mask (4,) or whole numbers (c,), got float64 of shape (2,)"),
+        (2, "of shape ()"),
+    ],
+)
+def test_a_selection_that_is_no_mask_and_no_numbers_is_refused(
+    fresh: Snapshots, which: ArrayLike, reason: str
+) -> None:
+    with pytest.raises(ValueError, match=re.escape(reason)):
+        fresh.select(which)
 
 
 def test_samples_of_another_problem_are_not_joined(fresh: Snapshots) -> None:
