@@ -14,8 +14,11 @@ from .blends import blend_weights
 
 FloatArray = NDArray[np.float64]
 
-# How far a sum of weights may be from one, and a weight beyond a face of the domain.
-_TOLERANCE = 1e-9
+#: How far a sum of weights may be from one: weights may come in single precision, where a division
+#: by their sum leaves 1e-7. Shapes do not change, since they minimise a sum times these weights.
+_SUM_TOLERANCE = 1e-6
+#: How far a weight may be beyond a face of the domain.
+_FACE_TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -161,7 +164,8 @@ class Simplex:
         Returns
         -------
         ndarray, (corners,) float64
-            The weights as they are. They may miss the sum, or a face of the domain, by 1e-9.
+            The weights as they are. They may miss the sum by 1e-6, and a face of the domain by
+            1e-9.
 
         Raises
         ------
@@ -185,16 +189,17 @@ class Simplex:
             raise ValueError(f"{who}: weight {bad} is {w[bad]}, but it must be finite")
         with np.errstate(over="ignore"):
             total = float(w.sum())
-        if not abs(total - 1.0) <= _TOLERANCE:
+        if not abs(total - 1.0) <= _SUM_TOLERANCE:
             raise ValueError(
                 f"{who}: the weights sum to {total:.10g}, but they must sum to 1; "
                 "divide them by their sum"
             )
-        outside = np.flatnonzero(w < self.lowest - _TOLERANCE)
+        outside = np.flatnonzero(w < self.lowest - _FACE_TOLERANCE)
         if outside.size and not extrapolate:
             raise ValueError(
                 f"{who}: weight {outside[0]} is {w[outside[0]]:g}, but none may be below "
-                f"{self.lowest:g}; pass extrapolate=True to leave the domain"
+                f"{self.lowest:g}; InterpolationProblem(extrapolation=...) enlarges the domain, "
+                "and blend(extrapolate=True) leaves it"
             )
         return w
 

@@ -138,8 +138,8 @@ WRONG: list[tuple[Any, str]] = [
     ([0.5, math.nan, 0.5], "InterpolationProblem: weight 1 is nan, but it must be finite"),
     ([0.5, 0.5, math.inf], "InterpolationProblem: weight 2 is inf, but it must be finite"),
     ([0.5, 0.5, 0.5], "the weights sum to 1.5, but they must sum to 1; divide them by their sum"),
-    ([0.6, 0.6, -0.2], "weight 2 is -0.2, but none may be below 0; pass extrapolate=True"),
-    ([1.5, 0.0, -0.5], "weight 2 is -0.5, but none may be below 0; pass extrapolate=True"),
+    ([0.6, 0.6, -0.2], "weight 2 is -0.2, but none may be below 0; InterpolationProblem(ext"),
+    ([1.5, 0.0, -0.5], "weight 2 is -0.5, but none may be below 0; InterpolationProblem(ext"),
 ]
 
 
