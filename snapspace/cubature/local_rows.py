@@ -14,7 +14,7 @@ from .. import _core as core
 MOST = 0.8
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LocalRows:
     """Displacement gradients of modes in tets, cluster by cluster, as products of two maps.
 

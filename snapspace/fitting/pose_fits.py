@@ -53,7 +53,7 @@ class PoseFit:
         return text if self.converged else f"{text}, {self.status}"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PoseFits:
     """Poses of one mesh.
 

@@ -14,7 +14,7 @@ from ..reduction import ReducedModel
 FloatArray = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MorphTargets:
     """The surfaces base + sum_i weights_i targets_i, as glTF draws them.
 

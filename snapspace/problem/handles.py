@@ -14,7 +14,7 @@ from .names import check_names
 IndexArray = NDArray[np.int32]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Handle:
     """A named set of vertices that follows one motion.
 
@@ -25,7 +25,7 @@ class Handle:
 
     name: str
     vertices: IndexArray
-    mask_length: int | None = field(default=None, compare=False, repr=False)
+    mask_length: int | None = field(default=None, repr=False)
 
     def check_in(self, count: int, *, what: str = "mesh") -> None:
         """ValueError unless it fits a mesh, or what else is named, of `count` vertices."""

@@ -14,7 +14,7 @@ from ..subspace import AffineSubspace
 FloatArray = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HandleQuadric:
     """Eq. (2) at the shape rest + U q as a quadratic form in q and the handles' offsets D_h.
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 FloatArray = NDArray[np.float64]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class ReducedModel(ABC):
     """A problem restricted to a subspace: a `PosingModel` or an `InterpolationModel`.
 

@@ -48,7 +48,7 @@ class SampleReport:
         return self.status == "carried"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Snapshots:
     """Solutions of a problem at sampled parameters, and shapes that serve a basis equally well.
 
@@ -105,6 +105,11 @@ class Snapshots:
 
     def __len__(self) -> int:
         return len(self.reports)
+
+    def __repr__(self) -> str:
+        useless = len(self) - int(self.usable.sum())
+        note = f", {useless} of them not converged" if useless else ""
+        return f"Snapshots({len(self)} samples{note}, {self.problem!r})"
 
     @property
     def shapes(self) -> FloatArray:

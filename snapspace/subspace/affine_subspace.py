@@ -16,7 +16,7 @@ from ..mesh import apply_mass, shape_or_rows
 FloatArray = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class AffineSubspace:
     """The shapes tau + U q (paper, eq. 4).
 
@@ -110,6 +110,9 @@ class AffineSubspace:
         shapes = self._directions.combined(coordinates)
         shapes += self.tau
         return shapes
+
+    def __repr__(self) -> str:
+        return f"AffineSubspace(dimension {self.dimension}, {self.tau.size // 3} vertices)"
 
     @property
     def _directions(self) -> DisplacementRows:

@@ -19,7 +19,7 @@ from .validation import Validation
 POINTS, SMALLEST_SHARE = 8, 0.1
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ErrorCurve:
     """Validations of a model's leading dimensions.
 
@@ -39,6 +39,11 @@ class ErrorCurve:
         """The result of `Validation.as_json` for each dimension."""
         pairs = zip(self.dimensions.tolist(), self.validations, strict=True)
         return [validation.as_json(dimension) for dimension, validation in pairs]
+
+    def __repr__(self) -> str:
+        pairs = zip(self.dimensions.tolist(), self.validations, strict=True)
+        medians = ", ".join(f"{np.median(v.error):.3g} at d = {d}" for d, v in pairs)
+        return f"ErrorCurve(median errors of {len(self.reference)} samples: {medians})"
 
 
 def usual_dimensions(dimension: int) -> list[int]:

@@ -19,7 +19,7 @@ Part = Literal["subspace", "stiffness", "cubature"]
 PARTS: tuple[Part, ...] = ("subspace", "stiffness", "cubature")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ErrorSplit:
     """The error between full and reduced solutions in three parts, (k,) each for k samples.
 
@@ -58,6 +58,11 @@ class ErrorSplit:
             for name in names
         }
         return {"samples": len(self.error), "largest": self.largest, **figures}
+
+    def __repr__(self) -> str:
+        names = ("error", *PARTS)
+        medians = ", ".join(f"{name} {np.median(getattr(self, name)):.3g}" for name in names)
+        return f"ErrorSplit(medians of {len(self.error)} samples: {medians})"
 
 
 def split_errors(

@@ -14,7 +14,7 @@ from ..snapshots import Snapshots
 FloatArray = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Validation:
     """Errors and costs at unseen parameters, (k,) for the k samples whose full solve converged.
 
@@ -66,6 +66,11 @@ class Validation:
             else None,
             "lower_minima": self.lower_minima,
         }
+
+    def __repr__(self) -> str:
+        e = self.error
+        figures = f"median {np.median(e):.3g}, mean {np.mean(e):.3g}, maximum {np.max(e):.3g}"
+        return f"Validation(errors of {len(e)} samples: {figures})"
 
 
 def _statistics(values: NDArray[Any]) -> dict[str, float]:

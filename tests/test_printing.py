@@ -1,0 +1,49 @@
+"""What a notebook prints of a result is one line with its main numbers, not its arrays."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from snapspace import (
+    ErrorCurve,
+    ErrorSplit,
+    Snapshots,
+    Validation,
+    snapshot_pca,
+)
+
+
+def test_snapshots_print_their_number_and_problem(posing_snapshots: Snapshots) -> None:
+    problem = repr(posing_snapshots.problem)
+    assert repr(posing_snapshots) == f"Snapshots(60 samples, {problem})"
+    failed = replace(posing_snapshots.reports[0], status="max_iterations")
+    worse = replace(posing_snapshots, reports=[failed, *posing_snapshots.reports[1:]])
+    assert repr(worse) == f"Snapshots(60 samples, 1 of them not converged, {problem})"
+
+
+def test_a_subspace_prints_its_sizes(posing_snapshots: Snapshots) -> None:
+    subspace = snapshot_pca(posing_snapshots, dimension=7)
+    count = len(posing_snapshots.problem.mesh.vertices)
+    assert repr(subspace) == f"AffineSubspace(dimension 7, {count} vertices)"
+
+
+def validation(errors: list[float], snapshots: Snapshots) -> Validation:
+    some = np.array(errors)
+    return Validation(some, some, some, some, some, some, some, snapshots)
+
+
+def test_validations_print_their_errors(posing_snapshots: Snapshots) -> None:
+    reference = posing_snapshots.select(range(3))
+    fine = validation([0.01, 0.02, 0.06], reference)
+    assert repr(fine) == ("Validation(errors of 3 samples: median 0.02, mean 0.03, maximum 0.06)")
+    coarse = validation([0.25, 0.5, 0.5], reference)
+    assert repr(ErrorCurve(np.array([5, 20]), (coarse, fine))) == (
+        "ErrorCurve(median errors of 3 samples: 0.5 at d = 5, 0.02 at d = 20)"
+    )
+    parts = (np.full(3, share) for share in (0.002, 0.008, 0.001, 0.0082, 0.0091234))
+    assert repr(ErrorSplit(*parts)) == (
+        "ErrorSplit(medians of 3 samples: error 0.00912, subspace 0.002, stiffness 0.008, "
+        "cubature 0.001)"
+    )
