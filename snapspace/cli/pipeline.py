@@ -117,14 +117,12 @@ def build_model(
         with stage(seconds, "basis"), spinner("basis"):
             subspace = _subspace(snapshots, recipe)
         with stage(seconds, "reduction"), spinner("reduced energy"):
-            usable = np.ones(len(snapshots), bool)
-            if not recipe.include_unconverged:
-                usable = snapshots.usable
             model = reduce(
                 problem,
                 subspace,
                 energy=recipe.energy,
-                snapshots=snapshots.select(usable),
+                snapshots=snapshots,
+                include_unconverged=recipe.include_unconverged,
                 tets=recipe.tets,
                 surface=surface,
                 threads=recipe.threads,

@@ -30,6 +30,7 @@ def reduce(
     *,
     energy: Energy = "auto",
     snapshots: Snapshots | None = None,
+    include_unconverged: bool = False,
     tets: int | None = None,
     seed: int = 0,
     surface: EmbeddedSurface | None = None,
@@ -43,6 +44,7 @@ def reduce(
     *,
     energy: Energy = "auto",
     snapshots: Snapshots | None = None,
+    include_unconverged: bool = False,
     tets: int | None = None,
     seed: int = 0,
     surface: EmbeddedSurface | None = None,
@@ -56,6 +58,7 @@ def reduce(
     *,
     energy: Energy = "auto",
     snapshots: Snapshots | None = None,
+    include_unconverged: bool = False,
     tets: int | None = None,
     seed: int = 0,
     surface: EmbeddedSurface | None = None,
@@ -68,6 +71,7 @@ def reduce(
     *,
     energy: Energy = "auto",
     snapshots: Snapshots | None = None,
+    include_unconverged: bool = False,
     tets: int | None = None,
     seed: int = 0,
     surface: EmbeddedSurface | None = None,
@@ -94,6 +98,8 @@ def reduce(
         Snapshots of the problem; recorded in the model by parameters and coordinates. A cubature
         needs at least ten that are not at rest, or two for blending. It is as good as their forces:
         those of settled snapshots are far from equilibrium, see `SolverOptions`.
+    include_unconverged : bool, default False
+        Whether to use snapshots that did not converge; `snapshot_pca` has the same option.
     tets : int, optional
         The most tets that a cubature may choose, r, or all tets if there are fewer. Default: 8 d
         for posing, beyond 1000 tets 6.5 d; 15 d for blending, but at most 1000. Of a shell they are
@@ -121,8 +127,8 @@ def reduce(
     ValueError
         If the subspace belongs to another mesh, is not attached to the problem's tau or has a basis
         that is not M-orthonormal, the surface belongs to another mesh, the energy is not possible,
-        a cubature has too few snapshots, or `tets` is given without a cubature or is not between 1
-        and the number of tets of the mesh.
+        a cubature has too few converged snapshots, or `tets` is given without a cubature or is not
+        between 1 and the number of tets of the mesh.
 
     Warns
     -----
@@ -138,10 +144,13 @@ def reduce(
         raise ValueError(f"reduce: tets is for energy='cubature'; '{kind}' takes all tets")
     if kind == "exact":
         warn_of_long_quartics(problem, subspace.dimension)
-    _check_snapshots(problem, subspace, energy, snapshots)
+    used = snapshots
+    if snapshots is not None and not include_unconverged and not snapshots.usable.all():
+        used = snapshots.select(snapshots.usable)
+    _check_snapshots(problem, subspace, energy, used, 0 if snapshots is None else len(snapshots))
     if kind != "full":  # full models are in no file
         subspace = subspace.in_single_precision()
-    parameters, coordinates = training_samples(problem, subspace, snapshots)
+    parameters, coordinates = training_samples(problem, subspace, used)
     record = dict(provenance or {})
     if isinstance(problem, InterpolationProblem):
         blends: PoseQuartics | BlendedSum | FullBlends
@@ -194,16 +203,22 @@ def _check_snapshots(
     problem: PosingProblem | InterpolationProblem,
     subspace: AffineSubspace,
     energy: Energy,
-    snapshots: Snapshots | None,
+    used: Snapshots | None,
+    given: int,
 ) -> None:
-    count = 0 if snapshots is None else len(snapshots)
+    """ValueError if too few of the given snapshots are used to train a cubature."""
+    count = 0 if used is None else len(used)
     fewest = fewest_snapshots(problem, subspace.dimension, energy)
     if count >= fewest:
         return
     cure = f"give snapshots=solve_snapshots(...) with {fewest} samples or more"
+    found = f"there are {count}"
+    if given > count:
+        found = f"only {count} of {given} converged"
+        cure = "allow more iterations, choose a smaller domain, or pass include_unconverged=True"
     if is_quartic(problem):
         cure += ", or energy='exact'"
     raise ValueError(
         f"reduce: the energy of {problem.material.title} in {subspace.dimension} dimensions is a "
-        f"cubature, which is trained on snapshots, but there are {count}; {cure}"
+        f"cubature, which is trained on snapshots, but {found}; {cure}"
     )
