@@ -17,6 +17,7 @@ from .blended_sum import BlendedSum
 from .cubature import Cubature
 from .elastic_states import BlendingStates, PosingStates
 from .elements import element_count, has_hinges, has_stars
+from .finite_states import finite_states
 from .fit_tets import FEWEST_SNAPSHOTS, Budget, fit_tets
 from .held_out_errors import held_out_errors
 from .local_coordinates import with_local_coordinates
@@ -130,8 +131,8 @@ def train_cubature(
     Raises
     ------
     ValueError
-        For fewer than ten states that are not at rest, or a number of tets below 1 or above that of
-        the mesh.
+        For fewer than ten states that are not at rest and have a finite energy, or a number of tets
+        below 1 or above that of the mesh.
     """
     begin = time.perf_counter()
     usual = default_tets(subspace.dimension, shell=has_hinges(problem))
@@ -139,6 +140,7 @@ def train_cubature(
         exact = posed_stars(problem, subspace)
         return exact, record_of(exact, time.perf_counter() - begin)
     states = PosingStates(problem, subspace, coordinates[_moved(coordinates)], handle_hessian)
+    states = finite_states(states, FEWEST_SNAPSHOTS, threads=threads)
     budget = Budget(tets, usual, FEWEST_SNAPSHOTS, TRAINED, CANDIDATES, MANY_CANDIDATES)
     fit = fit_tets(states, budget, seed=seed, threads=threads)
     dense = Cubature.of_tets(problem, subspace, fit.tets, fit.volumes)
@@ -176,6 +178,7 @@ def train_blended_cubature(
         return exact, record_of(exact, time.perf_counter() - begin)
     own = weights.max(axis=1, initial=0.0) < 1.0 - 1e-9
     states = _blending_states(problem, subspace, coordinates[own], weights[own])
+    states = finite_states(states, FEWEST_BLENDS, threads=threads)
     some = slice(None, None, PILOT_STEP)
     shapes = subspace.tau - problem.base + states.coordinates[some] @ subspace.basis.T
     energies = problem.system.evaluate(shapes, states.weights[some], threads=threads or 0)[0]
