@@ -80,9 +80,7 @@ class DimensionSearch:
         enough = self._first_below(MARGIN)
         if enough > self.most:
             return enough
-        room = min(self.most, self._most_aimed)
-        wanted = max(enough, min(self._first_below(AIM), room))
-        return room if wanted <= room < GROWTH * wanted else wanted  # no try would fit in between
+        return max(enough, min(self._first_below(AIM), self.most, self._most_aimed))
 
     def _first_below(self, factor: float) -> int:
         expected = self._projections * self._ratio * factor
