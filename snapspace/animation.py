@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .arguments import wrong_type
 from .disk import atomic_file
 from .gltf import fitted_targets, write_glb
 from .mesh import SURFACE_OUTPUTS, TET_OUTPUTS, EmbeddedSurface, solid_of, write_surface, write_tets
@@ -60,14 +61,17 @@ def write_animation(
     Raises
     ------
     ValueError
-        For an unknown kind, a folder that cannot be created, picture options without a film, and
-        as for `save_film`.
+        For something else than a model, an unknown kind, a folder that cannot be created, picture
+        options without a film, and as for `save_film`.
 
     Examples
     --------
     >>> frames = session.animate([{"head": ((0, 0, 0.6), (0, 0, 0.2))}], frames=48)
     >>> write_animation("nod.gif", session.model, (session.vertices for _ in frames))
     """
+    if not isinstance(model, ReducedModel):
+        cure = "give session.model" if hasattr(model, "model") else "give path, model, shapes"
+        raise wrong_type("write_animation", "model", model, cure)
     target = Path(path)
     if target.suffix.lower() in (".gif", ".mp4"):
         from .pictures import save_film

@@ -23,7 +23,7 @@ from .reduction import InterpolationModel, PosingModel, solved_coordinates, solv
 from .sampling import Domain
 from .session.certify import movement
 from .snapshots import Progress, Snapshots, solve_snapshots
-from .validation import check_reference, reference_options
+from .validation import check_model, check_reference, reference_options
 
 FloatArray = NDArray[np.float64]
 Model = TypeVar("Model", bound=PosingModel | InterpolationModel)
@@ -90,6 +90,7 @@ def calibrate(
     The bounds hold for parameters drawn like the samples, uniformly from the domain, and for frames
     that start at the rest or mean shape. Another dimension of the model needs a new calibration.
     """
+    check_model(model, "calibrate")
     full = _full(model, reference, samples=samples, seed=seed, threads=threads, progress=progress)
     typical = _parameters(model.problem.domain, TYPICAL_FRAMES, seed=seed or 0, stream=3)
     chosen = _sample(model, typical, threads=threads)

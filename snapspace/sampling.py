@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from numbers import Integral
 from typing import Literal, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
+
+from .arguments import is_whole
 
 FloatArray = NDArray[np.float64]
 Method = Literal["random", "sobol", "grid", "blends"]
@@ -87,18 +88,21 @@ def sample(
     Raises
     ------
     ValueError
-        For something else than a domain, a count that is not a whole number from 1 on, a negative
-        seed, an unknown method, or blends in a domain without them.
+        For something else than a domain, a count that is not a whole number from 1 on, a seed that
+        is not one from 0 on, an unknown method, or blends in a domain without them.
     """
     if not isinstance(domain, Domain):
         cure = "give problem.domain" if hasattr(domain, "domain") else "give a HandleBox or Simplex"
         raise ValueError(f"sample: the domain is a {type(domain).__name__}; {cure}")
-    if not isinstance(count, Integral):
+    if not is_whole(count):
         raise ValueError(f"sample: the number of samples is {count!r}, but must be a whole number")
     if count < 1:
         raise ValueError(f"sample: the number of samples is {count}, but must be at least 1")
+    if not is_whole(seed):
+        raise ValueError(f"sample: the seed is {seed!r}, but must be a whole number")
     if seed < 0:
         raise ValueError(f"sample: the seed is {seed}, but must not be negative")
+    count = int(count)
     if method == "random":
         return domain.from_unit(np.random.default_rng(seed).random((count, domain.dimension)))
     if method == "sobol":

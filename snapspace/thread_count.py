@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from .arguments import is_whole
+
 #: More are never useful, and far larger numbers do not fit in the core's integers.
 MOST_THREADS = 1024
 
@@ -10,9 +12,11 @@ def checked_threads(threads: int | None, who: str) -> int:
     """The number of threads, 0 for all; ValueError that names `who` if it is out of range."""
     if threads is None:
         return 0
+    if not is_whole(threads):
+        raise ValueError(f"{who}: threads is {threads!r}, but must be a whole number, or None")
     if not 0 <= threads <= MOST_THREADS:
         raise ValueError(
             f"{who}: threads is {threads}, but must be between 1 and {MOST_THREADS}, or None for "
             "all"
         )
-    return threads
+    return int(threads)

@@ -6,8 +6,8 @@ from itertools import permutations
 
 import numpy as np
 
+from snapspace.arguments import require_count, require_positive
 from snapspace.mesh.tet_mesh import TetMesh
-from snapspace.stuffing.arguments import require_count, require_positive
 
 
 def bar(

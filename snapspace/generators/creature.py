@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from snapspace.arguments import require_count
 from snapspace.generators.creature_shape import CREATURE_LOWER, CREATURE_UPPER, creature_shape
 from snapspace.mesh.tet_mesh import TetMesh
-from snapspace.stuffing.arguments import require_count
 from snapspace.stuffing.isosurface_stuffing import stuff_unchecked
 from snapspace.stuffing.manifold import euler_characteristic, is_closed_manifold
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from snapspace.arguments import require_count, require_positive
 from snapspace.mesh.tet_mesh import TetMesh
-from snapspace.stuffing.arguments import require_count, require_positive
 
 # The even permutations 012, 120, 201 as numbers in base 3.
 _EVEN_ORDERS = (5, 15, 19)

@@ -7,9 +7,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from snapspace.arguments import require_count, require_finite, require_positive
 from snapspace.generators.cylinder import disc_points, extruded_disc_tets
 from snapspace.mesh.tet_mesh import TetMesh
-from snapspace.stuffing.arguments import require_count, require_finite, require_positive
 
 
 def helix(

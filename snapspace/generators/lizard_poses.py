@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from snapspace.arguments import require_count, require_positive
 from snapspace.generators.bent_rod import bent_rod, rod_points
 from snapspace.generators.lizard_grid import BLOCK, LIMBS, TORSO, Limb, LizardGrid, lizard_grid
 from snapspace.mesh.tet_mesh import TetMesh
-from snapspace.stuffing.arguments import require_count, require_positive
 
 FloatArray = NDArray[np.float64]
 

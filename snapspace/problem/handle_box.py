@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import is_whole, wrong_type
+
 FloatArray = NDArray[np.float64]
 Vector = tuple[float, float, float]
 Bounds = float | Vector | Sequence[Vector] | FloatArray
@@ -61,6 +63,8 @@ class HandleBox:
                 f"HandleBox: angle is {self.angle}, but it is in radians and at most pi; "
                 "use numpy.deg2rad for degrees"
             )
+        if not is_whole(self.moving):
+            raise wrong_type("HandleBox", "moving", self.moving, "give a whole number")
         if self.moving < 1:
             raise ValueError(
                 f"HandleBox: moving is {self.moving}, but at least one handle must move"

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import wrong_type
 from .names import check_names
 
 IndexArray = NDArray[np.int32]
@@ -56,7 +57,7 @@ class Handles:
     ------
     ValueError
         For fewer than two handles, an empty or overlapping handle, a negative or non-integer
-        index, names that do not match; the message names the handle.
+        index, a mask of integers, names that do not match; the message names the handle.
 
     Examples
     --------
@@ -70,6 +71,9 @@ class Handles:
     def __init__(
         self, vertices: Sequence[ArrayLike], *, names: Sequence[str] | None = None
     ) -> None:
+        if isinstance(vertices, Mapping):
+            cure = "give list(parts.values()), names=list(parts), the fixed one first"
+            raise wrong_type("Handles", "vertices", vertices, cure)
         if names is None:
             names = [f"handle_{i}" for i in range(len(vertices))]
         check_names(names, len(vertices), who="Handles", what=f"{len(vertices)} handles")
@@ -175,6 +179,11 @@ def _as_indices(name: str, array: NDArray[Any]) -> IndexArray:
         raise ValueError(
             f"Handles: '{name}' must be a list of vertex indices or a boolean mask, got "
             f"{array.dtype} of shape {array.shape}"
+        )
+    if array.size > 2 and ((array == 0) | (array == 1)).all():
+        raise ValueError(
+            f"Handles: '{name}' has {array.size} entries that are all 0 or 1; give a mask as "
+            "booleans, mask.astype(bool), or each vertex index once"
         )
     if array.min() < 0:
         raise ValueError(f"Handles: '{name}' has the negative vertex index {array.min()}")

@@ -10,6 +10,8 @@ def check_names(names: Sequence[str], count: int, *, who: str, what: str) -> Non
 
     `who` begins the message, and `what` says what is named, with the number: "2 handles".
     """
+    if isinstance(names, str):
+        raise ValueError(f"{who}: names is the string '{names}', but must be a list of names")
     if len(names) != count:
         raise ValueError(f"{who}: got {len(names)} names for {what}")
     for name in names:

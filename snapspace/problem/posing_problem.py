@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from .. import _core as core
+from ..arguments import is_number, wrong_type
 from ..energy import ElasticEnergy, ShellMaterial
 from ..input_error import located
 from ..interruptible import run_abandonable
@@ -25,6 +26,7 @@ from .handle_stiffness import usual_stiffness
 from .handles import Handles
 from .held import check_held
 from .motion import rigid_offset
+from .posing_types import check_posing_types
 from .solver_traits import SolverTraits, posing_traits
 
 FloatArray = NDArray[np.float64]
@@ -55,11 +57,11 @@ class PosingProblem:
     Raises
     ------
     ValueError
-        For a stiffness that is not positive, a material that is not one of `MATERIALS`, has moduli
-        for another number of tets or no form for shells, a handle with a vertex that the mesh does
-        not have or made of a mask of another length (the message names it), or handles that all lie
-        on one line, about which the shape could turn. Every component of a shell must be held by
-        itself.
+        For a mesh, handles or a domain of another type, a stiffness that is not positive, a
+        material that is not one of `MATERIALS`, has moduli for another number of tets or no form
+        for shells, a handle with a vertex that the mesh does not have or made of a mask of another
+        length (the message names it), or handles that all lie on one line, about which the shape
+        could turn. Every component of a shell must be held by itself.
     """
 
     def __init__(
@@ -71,6 +73,7 @@ class PosingProblem:
         material: Material | None = None,
         stiffness: float | None = None,
     ) -> None:
+        check_posing_types(mesh, handles, domain)
         self.mesh = mesh
         self.handles = handles
         if material is None:
@@ -78,6 +81,8 @@ class PosingProblem:
         self.material = checked_material(material, len(mesh.cells), "PosingProblem")
         if stiffness is None:
             stiffness = usual_stiffness(mesh, self.material)
+        if not is_number(stiffness):
+            raise wrong_type("PosingProblem", "stiffness", stiffness, "give a positive number")
         self.stiffness = float(stiffness)
         self.domain = replace(domain, moving=len(handles) - 1)
         if not (math.isfinite(self.stiffness) and self.stiffness > 0):

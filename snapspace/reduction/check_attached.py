@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arguments import wrong_type
 from ..problem import InterpolationProblem, PosingProblem
 from ..subspace import AffineSubspace
 
@@ -11,7 +12,11 @@ from ..subspace import AffineSubspace
 def check_attached(
     problem: PosingProblem | InterpolationProblem, subspace: AffineSubspace, *, who: str
 ) -> None:
-    """ValueError of `who` unless the subspace goes through the problem's tau."""
+    """ValueError of `who` unless these are a problem and a subspace through its tau."""
+    if not isinstance(problem, (PosingProblem, InterpolationProblem)):
+        raise wrong_type(who, "problem", problem, "give the problem first, then the subspace")
+    if not isinstance(subspace, AffineSubspace):
+        raise wrong_type(who, "subspace", subspace, "give that of snapshot_pca or affine_subspace")
     if subspace.tau.shape != problem.base.shape or not np.array_equal(subspace.tau, problem.tau):
         raise ValueError(
             f"{who}: the subspace is not attached to the problem's reference shape: the rest shape "

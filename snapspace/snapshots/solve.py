@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import wrong_type
 from ..problem import Problem
 from ..thread_count import checked_threads
 from .checkpoint import Checkpoint
@@ -69,12 +70,19 @@ def solve_snapshots(
     Raises
     ------
     ValueError
-        For parameters of the wrong shape or not finite, threads out of range, known snapshots of
-        another problem, predictions for other samples or another mesh, or an executor that has lost
-        its workers; then finished samples are in the checkpoint.
+        For a problem or options of another type, parameters of the wrong shape or not finite,
+        threads out of range, known snapshots of another problem, predictions for other samples or
+        another mesh, or an executor that has lost its workers; then finished samples are in the
+        checkpoint.
     Interrupted
         On Ctrl-C, after the finished samples were saved.
     """
+    if not hasattr(problem, "parameter_count"):  # any class may be a problem
+        cure = "give a PosingProblem or InterpolationProblem first, then the parameters"
+        raise wrong_type("solve_snapshots", "problem", problem, cure)
+    if not isinstance(options, SolverOptions | None):
+        cure = "give SolverOptions(tolerance=..., ...)"
+        raise wrong_type("solve_snapshots", "options", options, cure)
     samples = _checked(problem, parameters)
     if known is not None:
         known.check_known(problem, "solve_snapshots")

@@ -8,6 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from .. import _core as core
+from ..arguments import is_number, is_whole, wrong_type
 from ..problem import Problem, Projection
 
 Solver = Literal["fast", "newton"]
@@ -79,7 +80,7 @@ class SolverOptions:
     Raises
     ------
     ValueError
-        For an unknown solver, projection or precision, or a number out of range.
+        For an unknown solver, projection or precision, or a number of another type or out of range.
     """
 
     solver: Solver = "fast"
@@ -95,8 +96,19 @@ class SolverOptions:
     def __post_init__(self) -> None:
         if self.solver not in SOLVERS:
             raise ValueError(f"unknown solver '{self.solver}'; known are {', '.join(SOLVERS)}")
+        for name in ("tolerance", "settling", "clamp"):
+            if getattr(self, name) is not None and not is_number(getattr(self, name)):
+                raise wrong_type("SolverOptions", name, getattr(self, name), "give a number")
+        for name in ("max_iterations", "block"):
+            if getattr(self, name) is not None and not is_whole(getattr(self, name)):
+                raise wrong_type("SolverOptions", name, getattr(self, name), "give a whole number")
         if self.tolerance is not None and not (np.isfinite(self.tolerance) and self.tolerance > 0):
             raise ValueError(f"tolerance is {self.tolerance}, but it must be positive")
+        if self.tolerance is not None and self.tolerance >= 1:
+            raise ValueError(
+                f"tolerance is {self.tolerance}, but it must be below 1: it is a share of the "
+                "objective, and every start would count as converged"
+            )
         if self.settling is not None and not (np.isfinite(self.settling) and self.settling >= 0):
             raise ValueError(f"settling is {self.settling}, but it must be zero or positive")
         if self.max_iterations < 1:

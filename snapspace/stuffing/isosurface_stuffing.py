@@ -8,9 +8,9 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from snapspace.arguments import require_positive
 from snapspace.mesh.morton_order import morton_order
 from snapspace.mesh.tet_mesh import TetMesh
-from snapspace.stuffing.arguments import require_positive
 from snapspace.stuffing.bcc_lattice import BccLattice, lattice_around
 from snapspace.stuffing.cut_points import TET_EDGES, CutPoints, find_cut_points
 from snapspace.stuffing.largest_component import largest_component

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import cholesky, solve_triangular
 from scipy.sparse import csr_array
 
+from ..arguments import is_whole, wrong_type
 from ..blas import single_threaded_blas
 from ..displacements import DisplacementRows, SnapshotGram, orthonormalise
 from ..mesh import mass_norm, shape_rows
@@ -73,6 +74,9 @@ def snapshot_pca(
         number of independent snapshots, if no snapshot is usable, if the weight is negative or not
         finite, or if the Gram matrix is of other snapshots.
     """
+    if not hasattr(snapshots, "usable"):  # this package knows no Snapshots
+        cure = "give those of solve_snapshots; pca takes an array of shapes (k, 3n)"
+        raise wrong_type("snapshot_pca", "snapshots", snapshots, cure)
     _check_size(dimension, energy_fraction)
     check_handle_weight(handle_weight, who="snapshot_pca")
     which = _which(snapshots, include_unconverged=include_unconverged)
@@ -237,6 +241,8 @@ def _orthonormal(weights: FloatArray, gram: FloatArray) -> FloatArray:
 def _check_size(dimension: int | None, energy_fraction: float | None) -> None:
     if (dimension is None) == (energy_fraction is None):
         raise ValueError("pca: give either dimension or energy_fraction")
+    if dimension is not None and not is_whole(dimension):
+        raise wrong_type("pca", "dimension", dimension, "give a whole number")
     if energy_fraction is not None and not 0 < energy_fraction <= 1:
         raise ValueError(f"pca: energy_fraction is {energy_fraction}, but must be in (0, 1]")
 

@@ -4,8 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arguments import wrong_type
 from ..reduction import ReducedModel
 from ..snapshots import Snapshots
+
+
+def check_model(model: ReducedModel, who: str) -> None:
+    """ValueError of `who` for something else than a model, such as a session."""
+    if not isinstance(model, ReducedModel):
+        cure = "give session.model" if hasattr(model, "model") else "give that of reduce or load"
+        raise wrong_type(who, "model", model, cure)
 
 
 def check_reference(model: ReducedModel, reference: Snapshots, *, who: str = "validate") -> None:
@@ -14,6 +22,7 @@ def check_reference(model: ReducedModel, reference: Snapshots, *, who: str = "va
     There must be at least one, of the model's problem, and all must have converged. None may be at
     a training parameter of the model, where its error says nothing about other parameters.
     """
+    check_model(model, who)
     own, theirs = model.problem, reference.problem
     if theirs.fingerprint != own.fingerprint:
         raise ValueError(

@@ -7,7 +7,7 @@ import numpy as np
 from ..reduction import ReducedModel
 from ..snapshots import Progress, Snapshots
 from .frame_errors import compared
-from .given_reference import check_reference
+from .given_reference import check_model, check_reference
 from .lower_minima import with_lower_minima
 from .unseen import solved_reference
 from .validation import Validation
@@ -49,9 +49,9 @@ def validate(
     Raises
     ------
     ValueError
-        If no full solution converged; for samples or seed together with a reference; for a
-        reference of another problem, without samples, with a sample that did not converge, or
-        with one at a training parameter of the model.
+        For something else than a model; if no full solution converged; for samples or seed together
+        with a reference; for a reference of another problem, without samples, with a sample that
+        did not converge, or with one at a training parameter of the model.
     """
     reference, lower = given_or_solved(
         model, reference, samples=samples, seed=seed, threads=threads, progress=progress
@@ -84,6 +84,7 @@ def given_or_solved(
 
     Also returns how many of its solutions are lower minima to which frames led.
     """
+    check_model(model, "validate")
     if reference is None:
         solved = solved_reference(
             model.problem,

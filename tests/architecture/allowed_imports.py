@@ -5,20 +5,21 @@ from __future__ import annotations
 #: Packages that each package's modules may import when they are loaded, besides their own.
 ALLOWED: dict[str, set[str]] = {
     "_core": {"_cpu_level"},
+    "arguments": set(),
     "input_error": set(),
     "disk": set(),
     "counted": set(),
     "extras": set(),
     "notice": set(),
-    "thread_count": set(),
+    "thread_count": {"arguments"},
     "blas": {"stopping"},
     "stopping": set(),
     "interruptible": {"_core", "stopping"},
     "mesh": {"counted", "disk", "input_error", "notice"},
     "registration": {"blas", "mesh"},
-    "sampling": set(),
+    "sampling": {"arguments"},
     "pictures": {"disk", "extras"},
-    "stuffing": {"mesh"},
+    "stuffing": {"arguments", "mesh"},
     "doctor": {"counted", "mesh", "stopping"},
     "filling": {
         "counted",
@@ -32,10 +33,11 @@ ALLOWED: dict[str, set[str]] = {
         "stuffing",
     },
     "fitting": {"_core", "blas", "interruptible", "material", "mesh", "registration"},
-    "generators": {"mesh", "stuffing"},
+    "generators": {"arguments", "mesh", "stuffing"},
     "material": {"_core"},
     "energy": {"_core", "blas", "material", "mesh"},
     "problem": {
+        "arguments",
         "_core",
         "counted",
         "energy",
@@ -48,8 +50,9 @@ ALLOWED: dict[str, set[str]] = {
         "sampling",
     },
     "displacements": {"_core", "blas", "problem"},
-    "subspace": {"_core", "blas", "displacements", "mesh", "problem"},
+    "subspace": {"arguments", "_core", "blas", "displacements", "mesh", "problem"},
     "snapshots": {
+        "arguments",
         "_core",
         "blas",
         "disk",
@@ -65,6 +68,7 @@ ALLOWED: dict[str, set[str]] = {
     "certificate": {"_core", "energy", "material", "mesh", "problem", "subspace"},
     "cubature": {"_core", "blas", "energy", "material", "mesh", "problem", "subspace"},
     "reduction": {
+        "arguments",
         "_core",
         "blas",
         "certificate",
@@ -125,7 +129,7 @@ ALLOWED: dict[str, set[str]] = {
         "validation",
     },
     "gltf": {"blas", "disk", "mesh", "reduction"},
-    "animation": {"disk", "gltf", "mesh", "pictures", "reduction"},
+    "animation": {"arguments", "disk", "gltf", "mesh", "pictures", "reduction"},
     "page": {"certificate", "disk", "mesh", "model_file", "reduction", "subspace", "symmetry"},
     "server": {
         "accurate",
@@ -166,6 +170,7 @@ ALLOWED: dict[str, set[str]] = {
         "validation",
     },
     "validation": {
+        "arguments",
         "blas",
         "displacements",
         "mesh",

@@ -19,6 +19,12 @@ def test_indices_and_masks_mean_the_same() -> None:
     assert np.array_equal(Handles([mask, [0]])[0].vertices, handles["a"].vertices)
 
 
+def test_the_first_two_vertices_may_be_a_handle() -> None:
+    """They are no mask of integers."""
+    assert Handles([[0, 1], [2]])[0].vertices.tolist() == [0, 1]
+    assert Handles([[1, 1], [2]])[0].vertices.tolist() == [1]
+
+
 def test_order_names_and_length() -> None:
     handles = Handles([[0], [1], [2]])
     assert handles.names == ("handle_0", "handle_1", "handle_2")
@@ -45,7 +51,7 @@ def test_an_unknown_name_lists_the_known_ones() -> None:
         Handles([[0], [1]], names=["foot", "head"])["tail"]
 
 
-BAD: list[tuple[list[Any], list[Any] | None, str]] = [
+BAD: list[tuple[Any, Any, str]] = [
     ([[0, 1]], ["foot"], "got 1, but posing needs a fixed handle and at least one to move"),
     ([], [], "got 0, but posing needs"),
     ([[0], []], ["foot", "head"], "'head' has no vertices"),
@@ -61,6 +67,18 @@ BAD: list[tuple[list[Any], list[Any] | None, str]] = [
     ([[0], ["x"]], ["foot", "head"], "'head' must be a list of vertex indices"),
     ([[0], [1, -3]], ["foot", "head"], "'head' has the negative vertex index -3"),
     ([[0], [2**31]], ["foot", "head"], "'head' has the vertex index 2147483648, beyond 32 bits"),
+    (
+        [np.ones(9, int), [1]],
+        ["foot", "head"],
+        "'foot' has 9 entries that are all 0 or 1; give",
+    ),
+    ([[0], np.uint8([0, 0, 1, 1])], ["foot", "head"], "'head' has 4 entries that are all 0 or 1"),
+    (
+        {"foot": [0], "head": [1]},
+        None,
+        "vertices is of type dict; give list(parts.values())",
+    ),
+    ([[0], [1]], "ab", "names is the string 'ab', but must be a list of names"),
     ([[0], [1]], ["foot"], "got 1 names for 2 handles"),
     ([[0], [1]], ["foot", "foot"], "the name 'foot' is used twice"),
     ([[0], [1]], ["foot", " "], "a name must be a non-empty string, got ' '"),
@@ -69,9 +87,7 @@ BAD: list[tuple[list[Any], list[Any] | None, str]] = [
 
 
 @pytest.mark.parametrize(("vertices", "names", "message"), BAD)
-def test_wrong_handles_are_refused_by_name(
-    vertices: list[Any], names: list[Any] | None, message: str
-) -> None:
+def test_wrong_handles_are_refused_by_name(vertices: Any, names: Any, message: str) -> None:
     with pytest.raises(ValueError, match=re.escape(f"Handles: {message}")) as caught:
         Handles(vertices, names=names)
     assert "\n" not in str(caught.value)

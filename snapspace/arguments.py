@@ -1,9 +1,10 @@
-"""Checks of arguments, also for the generators: one clear line for every invalid argument."""
+"""Checks of arguments: one clear line for every invalid argument."""
 
 from __future__ import annotations
 
 import math
 import operator
+from numbers import Integral, Real
 
 
 def require_count(who: str, name: str, value: int, *, at_least: int) -> int:
@@ -34,3 +35,18 @@ def require_positive(who: str, name: str, value: float) -> float:
     if number <= 0.0:
         raise ValueError(f"{who}: {name} is {number}, but must be positive")
     return number
+
+
+def is_number(value: object) -> bool:
+    """Whether it is a real number, of Python or of NumPy."""
+    return isinstance(value, Real)
+
+
+def is_whole(value: object) -> bool:
+    """Whether it is a whole number, of Python or of NumPy."""
+    return isinstance(value, Integral)
+
+
+def wrong_type(who: str, name: str, value: object, cure: str) -> ValueError:
+    """The error for an argument of another type; it names `who`, `name`, the type and the cure."""
+    return ValueError(f"{who}: {name} is of type {type(value).__name__}; {cure}")

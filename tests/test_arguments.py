@@ -1,0 +1,135 @@
+"""Arguments of the wrong type are refused in one line that says who, what came and what to give."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import snapspace as ss
+
+#: The call, given a model and its snapshots, and the message.
+Call = Callable[[Any, Any], Any]
+
+
+def problem(snapshots: Any, **changed: Any) -> ss.PosingProblem:
+    one = snapshots.problem
+    parts: dict[str, Any] = {"mesh": one.mesh, "handles": one.handles, "domain": one.domain}
+    return ss.PosingProblem(**{**parts, **changed})
+
+
+WRONG: dict[str, tuple[Call, str]] = {
+    "arrays as a mesh": (
+        lambda m, s: problem(s, mesh=(s.problem.mesh.vertices, s.problem.mesh.tets)),
+        "PosingProblem: mesh is of type tuple; give a TetMesh or ShellMesh, such as TetMesh(",
+    ),
+    "masks as handles": (
+        lambda m, s: problem(s, handles=[[0, 1], [2]]),
+        "PosingProblem: handles is of type list; give Handles([fixed, moving])",
+    ),
+    "numbers as a domain": (
+        lambda m, s: problem(s, domain=(0.2, 0.3)),
+        "PosingProblem: domain is of type tuple; give HandleBox(translation=..., angle=...)",
+    ),
+    "no domain": (
+        lambda m, s: problem(s, domain=None),
+        "PosingProblem: domain is of type NoneType; give HandleBox(",
+    ),
+    "several stiffnesses": (
+        lambda m, s: problem(s, stiffness=[1, 2]),
+        "PosingProblem: stiffness is of type list; give a positive number",
+    ),
+    "half a handle": (
+        lambda m, s: ss.HandleBox(translation=1, angle=1, moving=1.5),  # type: ignore[arg-type]
+        "HandleBox: moving is of type float; give a whole number",
+    ),
+    "no seed": (
+        lambda m, s: ss.sample(s.problem.domain, 3, seed=None),  # type: ignore[arg-type]
+        "sample: the seed is None, but must be a whole number",
+    ),
+    "a generator as the seed": (
+        lambda m, s: ss.sample(s.problem.domain, 3, seed=np.random.default_rng(0)),  # type: ignore[arg-type]
+        "sample: the seed is Generator(PCG64)",
+    ),
+    "parameters before the problem": (
+        lambda m, s: ss.solve_snapshots(s.parameters, s.problem),
+        "solve_snapshots: problem is of type ndarray; give a PosingProblem or InterpolationProblem",
+    ),
+    "options as a dictionary": (
+        lambda m, s: ss.solve_snapshots(s.problem, s.parameters, options={"tolerance": 1e-5}),
+        "solve_snapshots: options is of type dict; give SolverOptions(tolerance=..., ...)",
+    ),
+    "half a thread": (
+        lambda m, s: ss.solve_snapshots(s.problem, s.parameters, threads=1.5),  # type: ignore[arg-type]
+        "solve_snapshots: threads is 1.5, but must be a whole number, or None",
+    ),
+    "a tolerance in words": (
+        lambda m, s: ss.SolverOptions(tolerance="1e-3"),  # type: ignore[arg-type]
+        "SolverOptions: tolerance is of type str; give a number",
+    ),
+    "half an iteration": (
+        lambda m, s: ss.SolverOptions(max_iterations=1.5),  # type: ignore[arg-type]
+        "SolverOptions: max_iterations is of type float; give a whole number",
+    ),
+    "a tolerance that all starts meet": (
+        lambda m, s: ss.SolverOptions(tolerance=2),
+        "tolerance is 2, but it must be below 1: it is a share of the objective",
+    ),
+    "shapes as snapshots": (
+        lambda m, s: ss.snapshot_pca(s.shapes, dimension=3),
+        "snapshot_pca: snapshots is of type ndarray; give those of solve_snapshots; pca takes an",
+    ),
+    "half a dimension": (
+        lambda m, s: ss.snapshot_pca(s, dimension=3.5),  # type: ignore[arg-type]
+        "pca: dimension is of type float; give a whole number",
+    ),
+    "the subspace before the problem": (
+        lambda m, s: ss.reduce(m.subspace, s.problem, snapshots=s),
+        "reduce: problem is of type AffineSubspace; give the problem first, then the subspace",
+    ),
+    "a basis as the subspace": (
+        lambda m, s: ss.reduce(s.problem, m.subspace.basis),
+        "reduce: subspace is of type ndarray; give that of snapshot_pca or affine_subspace",
+    ),
+    "a session to validate": (
+        lambda m, s: ss.validate(m.session()),
+        "validate: model is of type PosingSession; give session.model",
+    ),
+    "a problem to calibrate": (
+        lambda m, s: ss.calibrate(s.problem),
+        "calibrate: model is of type PosingProblem; give that of reduce or load",
+    ),
+    "a session to split": (
+        lambda m, s: ss.split_errors(m.session(), s),
+        "split_errors: model is of type PosingSession; give session.model",
+    ),
+    "a session to film": (
+        lambda m, s: ss.write_animation("nod.gif", m.session(), []),
+        "write_animation: model is of type PosingSession; give session.model",
+    ),
+}
+
+
+@pytest.mark.parametrize(("call", "message"), WRONG.values(), ids=WRONG)
+def test_a_wrong_argument_is_refused_in_one_line(
+    posing_model: ss.PosingModel,
+    posing_snapshots: ss.Snapshots,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    call: Call,
+    message: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ValueError, match=re.escape(message)) as told:
+        call(posing_model, posing_snapshots)
+    assert "\n" not in str(told.value)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("count", [True, np.int64(1)])
+def test_any_whole_number_counts_samples(posing_model: ss.PosingModel, count: Any) -> None:
+    assert len(ss.sample(posing_model.problem.domain, count)) == 1
