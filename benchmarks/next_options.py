@@ -60,10 +60,10 @@ def trial(
     model = poor_model(problem, samples, d, tets)
     before = ss.validate(model, reference=reference)
     begin = time.perf_counter()
-    split = ss.split_errors(model, reference.select(np.arange(len(reference)) < 5))
+    split = ss.split_errors(model, reference.select(range(5)))
     split_seconds = (time.perf_counter() - begin) / len(split.error)
     option = ss.next_option(model, split)
-    names: dict[str, Any] = {**vars(ss), "problem": problem}
+    names: dict[str, Any] = {"ss": ss, "problem": problem}
     exec(option.python, names)
     after = ss.validate(names["model"], reference=reference)
     return {

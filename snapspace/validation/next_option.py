@@ -59,15 +59,14 @@ class NextOption:
 
     @property
     def python(self) -> str:
-        """The calls that build it, for a given problem."""
-        method = "" if self.method == "sobol" else f', method="{self.method}"'
+        """The calls that build it, for a given `problem` and `import snapspace as ss`."""
         tight = "" if self.tolerance is None else _options_argument(self.tolerance)
         energy = "" if self.energy == "auto" else f', energy="{self.energy}"'
         tets = "" if self.tets is None else f", tets={self.tets}"
         return (
-            f"parameters = sample(problem.domain, {self.samples}{method}); "
-            f"snapshots = solve_snapshots(problem, parameters{tight}); "
-            f"model = reduce(problem, snapshot_pca(snapshots, dimension={self.dimension}), "
+            f'parameters = ss.sample(problem.domain, {self.samples}, method="{self.method}"); '
+            f"snapshots = ss.solve_snapshots(problem, parameters{tight}); "
+            f"model = ss.reduce(problem, ss.snapshot_pca(snapshots, dimension={self.dimension}), "
             f"snapshots=snapshots{energy}{tets})"
         )
 
@@ -114,7 +113,7 @@ def needs_advice(error: float, projection: float) -> bool:
 
 
 def _options_argument(tolerance: float) -> str:
-    return f", options=SolverOptions(tolerance={tolerance:g})"
+    return f", options=ss.SolverOptions(tolerance={tolerance:g})"
 
 
 def _training_tolerance(model: ReducedModel, dimension: int, energy: Energy) -> float | None:

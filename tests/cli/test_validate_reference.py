@@ -101,7 +101,7 @@ def test_without_the_files_the_advice_is_in_python(
     moved = few_tets.rename(elsewhere / few_tets.name)
     result = run("validate", moved, "--samples", 8, "--json")
     assert result.json["next"]["command"] is None
-    assert "in Python: parameters = sample(problem.domain, 60)" in result.err
+    assert 'in Python: parameters = ss.sample(problem.domain, 60, method="sobol")' in result.err
 
 
 @pytest.mark.parametrize(

@@ -72,7 +72,7 @@ def test_the_advised_calls_run_and_lower_the_error(tets: int | None, model: Posi
 
 
 def model_from(calls: str, problem: ss.PosingProblem) -> PosingModel:
-    names = {**vars(ss), "problem": problem}
+    names = {"ss": ss, "problem": problem}
     exec(calls, names)
     model = names["model"]
     assert isinstance(model, PosingModel)
@@ -80,7 +80,9 @@ def model_from(calls: str, problem: ss.PosingProblem) -> PosingModel:
 
 
 def test_two_poses_take_sobol_points(helix_model: InterpolationModel) -> None:
-    assert "method" not in next_option(helix_model, split_with("stiffness")).python
+    option = next_option(helix_model, split_with("stiffness"))
+    assert option.method == "sobol"
+    assert 'method="sobol"' in option.python, "the default of `sample` is random"
 
 
 def test_an_exact_energy_stays_exact_while_it_can(posing_model: PosingModel) -> None:
@@ -93,7 +95,7 @@ def test_samples_for_a_cubature_are_solved_tightly(cubature_model: PosingModel) 
     """Default samples of the paper's material settle without equilibrium of forces."""
     option = next_option(cubature_model, split_with("cubature"))
     assert option.tolerance == cubature_model.problem.solving.tolerance
-    assert "options=SolverOptions(tolerance=1e-05)" in option.python
+    assert "options=ss.SolverOptions(tolerance=1e-05)" in option.python
 
 
 def test_with_all_tets_the_cure_is_a_larger_subspace(model: PosingModel) -> None:
