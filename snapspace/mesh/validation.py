@@ -114,6 +114,14 @@ def _check_volumes(
             "be computed: choose another unit of length",
         )
     bad = np.flatnonzero(flat_tets(vertices, tets, volumes))
+    if bad.size == len(tets):
+        # dropping them would leave none
+        raise InputError(
+            who,
+            f"every tet ({len(tets)}) has zero volume: the vertices are in one plane, too close "
+            "together, or too far from the origin for double precision (coordinates up to "
+            f"{np.abs(vertices).max():g}); move or scale them at their source",
+        )
     if bad.size:
         raise InputError(
             who,

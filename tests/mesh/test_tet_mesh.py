@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import pickle
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from snapspace.mesh import TetMesh
 
@@ -158,6 +159,17 @@ def test_refuses_zero_volume_at_every_scale(scale: float) -> None:
     flat = np.concatenate([CORNER, [[1, 1, 0]]]) * scale
     tets = [[0, 1, 2, 3], [0, 1, 2, 4]]
     refuse(flat, tets, r"tet 1 \(0, 1, 2, 4\) has zero volume; 1 such tet of 2: .*--repair")
+
+
+@pytest.mark.parametrize(
+    "move", [lambda x: x + 1e17, lambda x: x * [1, 1, 0], lambda x: x * 1e-300]
+)
+def test_where_every_tet_is_flat_the_cure_is_at_the_source(
+    move: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+) -> None:
+    """Without flat tets there would be no mesh."""
+    vertices, tets = box_arrays()
+    refuse(move(vertices), tets, r"every tet \(48\) has zero volume: .* too far from the origin")
 
 
 def test_refuses_inverted_tets() -> None:
