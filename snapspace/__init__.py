@@ -47,7 +47,14 @@ EXPORTS = {
         "write_surface",
         "write_tets",
     ),
-    "gltf": ("MorphTargets", "fitted_targets", "mode_targets", "write_blender", "write_glb"),
+    "gltf": (
+        "MorphTargets",
+        "fitted_targets",
+        "mode_targets",
+        "still_shape",
+        "write_blender",
+        "write_glb",
+    ),
     "model_file": ("load", "load_blending", "load_posing", "save_model"),
     "page": ("export_html", "export_packed"),
     "problem": (

@@ -19,7 +19,14 @@ from .fitting import (
     PoseFits,
     fit_poses,
 )
-from .gltf import MorphTargets, fitted_targets, mode_targets, write_blender, write_glb
+from .gltf import (
+    MorphTargets,
+    fitted_targets,
+    mode_targets,
+    still_shape,
+    write_blender,
+    write_glb,
+)
 from .greedy import greedy_snapshots
 from .material import (
     ARAP,
@@ -257,6 +264,7 @@ __all__ = [
     "snapshot_pca",
     "solve_snapshots",
     "split_errors",
+    "still_shape",
     "stuff_surface",
     "validate",
     "widen",

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .arguments import wrong_type
 from .disk import atomic_file
-from .gltf import fitted_targets, write_glb
+from .gltf import fitted_targets, still_shape, write_glb
 from .mesh import SURFACE_OUTPUTS, TET_OUTPUTS, EmbeddedSurface, solid_of, write_surface, write_tets
 from .reduction import ReducedModel
 
@@ -42,16 +42,18 @@ def write_animation(
     shapes : iterable of (n, 3)
         Vertices of the tets.
     kind : str, default that of the user's surface, or obj
-        Format of the files in a folder: a surface as obj, ply, off or stl, or all tets as msh, vtu,
-        vtk or mesh. In the format of the file that the surface came from (also glb and gltf) it is
-        that file with other positions, see `SurfaceFile`; in others it has triangles only. With
-        vtu and vtk there is also frames.vtu.series, which ParaView opens with the times.
+        Format of the files in a folder: a surface as obj, ply, off, stl or glb, or all tets as msh,
+        vtu, vtk or mesh. In the format of the file that the surface came from (also gltf) it is
+        that file with other positions, see `SurfaceFile`; a glb has its materials, see `write_glb`,
+        and others have triangles only. With vtu and vtk there is also frames.vtu.series, which
+        ParaView opens with the times.
     frames_per_second : float, default 30
         The frame rate of a film, a .glb or a series for ParaView.
     **picture
         Options for a film: size, azimuth, elevation, up (default: that of the model), colors and
         others, see `pictures.save_film`. A .glb takes up, colors, and targets: the largest number
-        of morph targets that are fitted to the shapes, default 8, see `gltf.fitted_targets`.
+        of morph targets that are fitted to the shapes, default 8, see `gltf.fitted_targets`. The
+        kind glb takes up.
 
     Returns
     -------
@@ -87,24 +89,30 @@ def write_animation(
         morphs = fitted_targets(model, placed, count=count)
         rate = frames_per_second
         return [write_glb(target, model, morphs, frames_per_second=rate, **picture)]
+    suffix = shape_suffix(model, kind)
+    up = picture.pop("up", None) if suffix == ".glb" else None
     if picture:
         raise ValueError(
             f"write_animation: {', '.join(picture)} applies to films only, but {target} is a "
             "folder; give a name that ends in .gif, .mp4 or .glb"
         )
-    suffix = shape_suffix(model, kind)
-    return _written(target, model, shapes, suffix, frames_per_second)
+    return _written(target, model, shapes, suffix, frames_per_second, up=up)
 
 
-def write_shape(path: Path, model: ReducedModel, vertices: NDArray[np.float64]) -> None:
+def write_shape(
+    path: Path, model: ReducedModel, vertices: NDArray[np.float64], *, up: str | None = None
+) -> None:
     """Writes a shape (n, 3) of a model: its surface or its tets, depending on the extension.
 
     In the format of the file that the surface came from, it is that file with other positions.
+    Another .glb has the surface's materials and stands upright, by `up` or the model's own axis.
     """
     suffix, surface = path.suffix.lower(), model.surface
     source = surface.source
     if source is not None and suffix == source.suffix:
         source.write(path, surface.vertices(vertices))
+    elif suffix == ".glb":
+        write_glb(path, model, still_shape(model, vertices), up=up)
     elif suffix in SURFACE_OUTPUTS:
         write_surface(path, surface.vertices(vertices), surface.faces)
     else:
@@ -114,7 +122,7 @@ def write_shape(path: Path, model: ReducedModel, vertices: NDArray[np.float64]) 
 def shape_suffixes(surface: EmbeddedSurface) -> tuple[str, ...]:
     """Extensions that `write_shape` takes for a model with this surface."""
     own = () if surface.source is None else (surface.source.suffix,)
-    return tuple(dict.fromkeys((*SURFACE_OUTPUTS, *own, *TET_OUTPUTS)))
+    return tuple(dict.fromkeys((*SURFACE_OUTPUTS, ".glb", *own, *TET_OUTPUTS)))
 
 
 def shape_suffix(model: ReducedModel, kind: str | None) -> str:
@@ -131,6 +139,8 @@ def _written(
     shapes: Iterable[ArrayLike],
     suffix: str,
     frames_per_second: float,
+    *,
+    up: str | None,
 ) -> list[Path]:
     allowed = shape_suffixes(model.surface)
     if suffix not in allowed:
@@ -151,7 +161,7 @@ def _written(
     for number, shape in enumerate(shapes):
         vertices = _checked(shape, model)
         file = folder / f"frame-{number:04d}{suffix}"
-        write_shape(file, model, vertices)
+        write_shape(file, model, vertices, up=up)
         files.append(file)
     if suffix in _SERIES:
         _write_series(folder / f"frames{suffix}.series", files, frames_per_second)

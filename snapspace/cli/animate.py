@@ -18,7 +18,7 @@ from .frames import check_frames_output, frame_options, is_film, notice_old_fram
 from .glb import write_path
 from .loading import load_leading
 from .options import FILE, json_option, leading_option, up_option
-from .own_surface import check_own_output, surface_option, with_surface
+from .own_surface import check_own_output, check_up, surface_option, with_surface
 from .pose_path import handle_colors
 from .progress import spinner
 
@@ -65,7 +65,8 @@ def animate(
     check_frames_output(output, kind=kind, frames_per_second=frames_per_second if film else None)
     loaded: Any = load_leading(model_file, dimension)
     model: PosingModel | InterpolationModel = with_surface(loaded, surface_file)
-    check_own_output(loaded, output, kind, path=True)
+    check_own_output(model, output, kind, path=True)
+    check_up(model, up, output, kind, path=True)
     rate = frames_per_second or 30.0
     timeline = _own_timeline(model, model_file) if given is None else given
     session = model.session()
@@ -96,8 +97,12 @@ def animate(
                 output, model, shapes, frames_per_second=rate, up=shown_up, **painted
             )
         elif output is not None:
-            notice_old_frames(output, count, suffix=shape_suffix(model, kind))
-            files = write_animation(output, model, shapes, kind=kind, frames_per_second=rate)
+            suffix = shape_suffix(model, kind)
+            notice_old_frames(output, count, suffix=suffix)
+            turned: dict[str, Any] = {"up": shown_up} if suffix == ".glb" else {}
+            files = write_animation(
+                output, model, shapes, kind=kind, frames_per_second=rate, **turned
+            )
     solve = 1e3 * float(np.median([report.seconds for report in reports]))
     facts = [
         ("timeline", f"{len(timeline.keys)} keys, {timeline.duration:g} s"),

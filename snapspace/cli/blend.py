@@ -33,7 +33,13 @@ from .frames import (
 from .glb import write_path
 from .loading import load_interpolation
 from .options import FILE, json_option, leading_option, numbers_option, up_option
-from .own_surface import SHAPE_OUTPUTS, check_own_output, surface_option, with_surface
+from .own_surface import (
+    SHAPE_OUTPUTS,
+    check_own_output,
+    check_up,
+    surface_option,
+    with_surface,
+)
 from .progress import spinner
 
 EVEN = ("shape", "weights")
@@ -60,8 +66,8 @@ EVEN = ("shape", "weights")
     "--output",
     type=FILE,
     metavar="FILE|DIR",
-    help="Surface as .obj, .ply, .off, .stl, or all tets as .msh, .vtu, .vtk, .mesh. In the format "
-    "of the first pose's surface (also .glb, .gltf), it is that file with other positions. With "
+    help="Surface as .obj, .ply, .off, .stl, .glb, or all tets as .msh, .vtu, .vtk, .mesh. In the "
+    "format of the first pose's surface (also .gltf), it is that file with other positions. With "
     "--path a folder, a film as .gif or .mp4, or an animated mesh as .glb.",
 )
 @path_options
@@ -120,6 +126,8 @@ def blend(
     if frames is not None:
         check_frames_output(output, kind=kind, frames_per_second=frames_per_second)
     check_own_output(model, output, kind, path=frames is not None)
+    if png is None:
+        check_up(model, up, output, kind, path=frames is not None)
     session = model.session()
     jumps: list[PathJump] = []
     if single is not None:
@@ -136,7 +144,7 @@ def blend(
         with spinner("writing the frames"):
             written = write(output, model, film, frames_per_second=rate, up=up or model.up)
     else:
-        written = _write(model, shapes, output, kind=kind, folder=frames is not None)
+        written = _write(model, shapes, output, kind=kind, folder=frames is not None, up=up)
     if png is not None:
         save_png(png, blend_picture(model, shapes, up=up or model.up))
         written.append(png)
@@ -192,6 +200,7 @@ def _write(
     *,
     kind: str | None,
     folder: bool,
+    up: str | None,
 ) -> list[Path]:
     if output is None:
         return []
@@ -201,7 +210,7 @@ def _write(
     written = []
     for number, shape in enumerate(shapes):
         path = output / f"frame-{number:04d}{suffix}" if folder else output
-        written += write_blended(model, shape, path)
+        written += write_blended(model, shape, path, up=up)
     return written
 
 

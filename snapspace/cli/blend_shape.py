@@ -75,11 +75,13 @@ def shape_at(
     )
 
 
-def write_blended(model: InterpolationModel, shape: BlendedShape, path: Path) -> list[Path]:
+def write_blended(
+    model: InterpolationModel, shape: BlendedShape, path: Path, *, up: str | None
+) -> list[Path]:
     """Writes the surface or the tets, by the extension, and the linear blend beside the file."""
     files = [(path, shape.vertices)]
     if shape.linear is not None:
         files.append((path.with_name(f"{path.stem}-linear{path.suffix}"), shape.linear))
     for file, vertices in files:
-        write_shape(file, model, vertices)
+        write_shape(file, model, vertices, up=up)
     return [file for file, _ in files]

@@ -29,9 +29,13 @@ def write_path(
     frames_per_second: float,
     colors: FloatArray | None = None,
 ) -> list[Path]:
-    """Writes shapes (n, 3) as the frames of an animation of at most eight morph targets."""
+    """Writes shapes (n, 3) as the frames of an animation of at most eight morph targets.
+
+    The colours (s, 3) are for surfaces without materials of their own.
+    """
     morphs = fitted_targets(model, np.array(shapes), count=FEW)
-    write_glb(output, model, morphs, up=up, frames_per_second=frames_per_second, colors=colors)
+    tint = colors if morphs.drawn.look is None else None
+    write_glb(output, model, morphs, up=up, frames_per_second=frames_per_second, colors=tint)
     notice(described(output, model, morphs))
     return [output]
 

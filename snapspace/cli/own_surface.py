@@ -10,11 +10,12 @@ from typing import Any, TypeVar
 import click
 import numpy as np
 
-from ..animation import shape_suffixes
+from ..animation import shape_suffix, shape_suffixes
 from ..mesh import SurfaceFile, embed_file, open_surface, solid_of
-from ..reduction import InterpolationModel, PosingModel
+from ..reduction import InterpolationModel, PosingModel, ReducedModel
 from .console import notice
-from .files import ANIMATIONS, SURFACE_INPUTS, TET_OUTPUTS
+from .files import ANIMATIONS, FILMS, SURFACE_INPUTS, TET_OUTPUTS
+from .frames import is_film
 from .options import FILE
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -49,12 +50,14 @@ def with_surface(model: Model, file: Path | None) -> Model:
         raise ValueError(f"{file}: {error}") from None
 
 
-def check_own_output(model: Model, output: Path | None, kind: str | None, *, path: bool) -> None:
+def check_own_output(
+    model: ReducedModel, output: Path | None, kind: str | None, *, path: bool
+) -> None:
     """Says what a format keeps of the user's surface; ValueError for one that only a source has.
 
     Parameters
     ----------
-    model : PosingModel or InterpolationModel
+    model : ReducedModel
     output : Path or None
         A file or, with `path`, a folder or a film.
     kind : str or None
@@ -62,11 +65,16 @@ def check_own_output(model: Model, output: Path | None, kind: str | None, *, pat
     path : bool
         Whether frames of a path are written.
     """
-    if output is None or (path and output.suffix.lower() in ANIMATIONS):
+    if output is None:
         return
     source = model.surface.source
     usual = source.suffix if source is not None else ".obj"
-    suffix = (f".{kind}" if kind else usual) if path else output.suffix.lower()
+    suffix = _suffix(model, output, kind, path=path)
+    if suffix in FILMS:
+        return
+    if suffix == ".glb":
+        _notice_glb(source, whole=path and output.suffix.lower() in ANIMATIONS)
+        return
     if suffix not in shape_suffixes(model.surface):
         came = "has no surface file" if source is None else f"has {source.name}"
         raise ValueError(
@@ -90,6 +98,40 @@ def check_own_output(model: Model, output: Path | None, kind: str | None, *, pat
     if missing:
         notice(
             f"notice: {source.name} refers to {', '.join(missing)}; copy the file to {folder} too"
+        )
+
+
+def check_up(
+    model: ReducedModel, up: str | None, output: Path | None, kind: str | None, *, path: bool
+) -> None:
+    """ValueError for --up where the output is a file whose coordinates it does not change."""
+    if up is None:
+        return
+    suffix = None if output is None else _suffix(model, output, kind, path=path)
+    source = model.surface.source
+    own = source is not None and suffix == source.suffix and not (path and is_film(output))
+    if own or suffix not in ANIMATIONS:
+        raise ValueError(
+            "--up is for pictures, films and new .glb files; coordinates in other files stay, so "
+            "leave it out"
+        )
+
+
+def _suffix(model: ReducedModel, output: Path, kind: str | None, *, path: bool) -> str:
+    """The extension of what is written: of the output, or of the files in it."""
+    if path and not is_film(output):
+        return shape_suffix(model, kind)
+    return output.suffix.lower()
+
+
+def _notice_glb(source: SurfaceFile | None, *, whole: bool) -> None:
+    """Says what a new .glb loses of a glTF file; `whole` if it is an animation."""
+    if source is None or source.suffix not in (".glb", ".gltf"):
+        return
+    if whole or source.suffix == ".gltf":
+        notice(
+            f"notice: of the materials of {source.name} the .glb file has base colours only, and "
+            f"no skins; frames in a folder, as {source.suffix}, keep all"
         )
 
 

@@ -23,7 +23,13 @@ from .frames import check_frames_output, path_options
 from .loading import load_posing
 from .motions import MotionCommand, as_parameters, beyond_domain, motions_in_order
 from .options import FILE, json_option, leading_option, up_option, vector_option
-from .own_surface import SHAPE_OUTPUTS, check_own_output, surface_option, with_surface
+from .own_surface import (
+    SHAPE_OUTPUTS,
+    check_own_output,
+    check_up,
+    surface_option,
+    with_surface,
+)
 from .pose_path import handle_colors, inverted_tets, posed_path
 from .progress import spinner
 
@@ -41,8 +47,8 @@ from .progress import spinner
     "--output",
     type=FILE,
     metavar="FILE",
-    help="Surface as .obj, .ply, .off, .stl, or all tets as .msh, .vtu, .vtk, .mesh. In the format "
-    "of the surface that the model was made from (also .glb, .gltf), it is that file with other "
+    help="Surface as .obj, .ply, .off, .stl, .glb, or all tets as .msh, .vtu, .vtk, .mesh. In the "
+    "format of the surface that the model was made from (also .gltf), it is that file with other "
     "positions. With --path a folder, a film as .gif or .mp4, or an animated mesh as .glb.",
 )
 @click.option(
@@ -100,6 +106,8 @@ def pose(
             raise ValueError("--png is a picture of one shape; with --path give -o FILE.gif")
     model = with_surface(load_posing(model_file, dimension), surface_file)
     check_own_output(model, output, kind, path=frames is not None)
+    if png is None:
+        check_up(model, up, output, kind, path=frames is not None)
     problem = model.problem
     parameters, carrier = as_parameters(problem, motions)
     if frames is not None:
@@ -137,7 +145,7 @@ def pose(
         "png": None if png is None else str(png),
     }
     if output is not None:
-        write_shape(output, model, vertices)
+        write_shape(output, model, vertices, up=up)
     if png is not None:
         save_png(png, _picture(model, vertices, up or model.up))
     _print_report(figures)

@@ -53,8 +53,10 @@ class PosedPath:
                 colors=handle_colors(self.model),
                 up=up,
             )
-        notice_old_frames(output, len(self.shapes), suffix=shape_suffix(self.model, kind))
-        return write_animation(output, self.model, self.shapes, kind=kind)
+        suffix = shape_suffix(self.model, kind)
+        notice_old_frames(output, len(self.shapes), suffix=suffix)
+        turned: dict[str, Any] = {"up": up} if suffix == ".glb" else {}
+        return write_animation(output, self.model, self.shapes, kind=kind, **turned)
 
     def as_json(self, files: list[Path]) -> dict[str, Any]:
         """The numbers with the keys of `snapspace pose --path --json`."""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 FLOAT, UNSIGNED_INT = 5126, 5125
 ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
 _MAGIC, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
-_TYPES = {1: "SCALAR", 3: "VEC3"}
+_TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3"}
 
 
 class GlbFile:
@@ -28,7 +28,7 @@ class GlbFile:
         self._size = 0
 
     def floats(self, values: NDArray[Any], *, vertices: bool, bounds: bool = False) -> int:
-        """Adds an array (k,) or (k, 3) in single precision; the number of its accessor.
+        """Adds an array (k,), (k, 2) or (k, 3) in single precision; the number of its accessor.
 
         vertices : whether it is an attribute of vertices
         bounds : adds the least and greatest values, as positions and times need them
@@ -49,7 +49,11 @@ class GlbFile:
             {},
         )
 
-    def bytes(self, content: dict[str, Any]) -> bytes:
+    def picture(self, data: bytes) -> int:
+        """Adds the bytes of a PNG or JPEG file; the number of its buffer view."""
+        return self._view(data + b"\0" * (-len(data) % 4), {"byteLength": len(data)})
+
+    def file_bytes(self, content: dict[str, Any]) -> bytes:
         """The file: `content` is the JSON without buffers, views and accessors."""
         whole = {
             **content,
@@ -68,16 +72,12 @@ class GlbFile:
     def _add(
         self, array: NDArray[Any], component: int, target: int | None, about: dict[str, Any]
     ) -> int:
-        view = {"buffer": 0, "byteOffset": self._size, "byteLength": array.nbytes}
-        if target is not None:
-            view["target"] = target
-        self._parts.append(array.tobytes())  # all items have four bytes: views stay aligned
-        self._size += array.nbytes
-        self._views.append(view)
+        kind = {} if target is None else {"target": target}
+        view = self._view(array.tobytes(), {"byteLength": array.nbytes, **kind})
         width = 1 if array.ndim == 1 else array.shape[1]
         self._accessors.append(
             {
-                "bufferView": len(self._views) - 1,
+                "bufferView": view,
                 "componentType": component,
                 "count": len(array),
                 "type": _TYPES[width],
@@ -85,3 +85,10 @@ class GlbFile:
             }
         )
         return len(self._accessors) - 1
+
+    def _view(self, data: bytes, about: dict[str, Any]) -> int:
+        """Adds bytes, a multiple of four so that all views are aligned; the number of the view."""
+        self._views.append({"buffer": 0, "byteOffset": self._size, **about})
+        self._parts.append(data)
+        self._size += len(data)
+        return len(self._views) - 1

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..blas import single_threaded_blas
 from ..mesh import vertex_normals
 from ..reduction import ReducedModel
+from .drawn_surface import DrawnSurface, drawn_surface
 
 FloatArray = NDArray[np.float64]
 
@@ -20,11 +21,13 @@ class MorphTargets:
 
     base : (s, 3) vertices for zero weights
     targets : (m, s, 3) displacements
-    normals : (s, 3) unit normals of the base; normal_targets : (m, s, 3) their changes, which are
-    exact to first order only: viewers add them up and normalise
+    normals : (g, 3) unit normals of the base, one per vertex and several at sharp edges of the
+    user's file; normal_targets : (m, g, 3) their changes, which are exact to first order only:
+    viewers add them up and normalise
     weights : (k, m) weights of k shapes
     error : largest distance of a vertex of these shapes from where the targets put it, in the
     mesh's length unit; zero where they are exact
+    drawn : the points, normals and materials of the surface
     """
 
     base: FloatArray
@@ -33,6 +36,7 @@ class MorphTargets:
     normal_targets: FloatArray
     weights: FloatArray
     error: float
+    drawn: DrawnSurface
 
 
 def mode_targets(model: ReducedModel, shapes: ArrayLike | None = None) -> MorphTargets:
@@ -63,8 +67,9 @@ def mode_targets(model: ReducedModel, shapes: ArrayLike | None = None) -> MorphT
     known = model.training_coordinates
     if len(weights) > len(known):
         known = weights
-    normals, changes = _normals(base, targets, known, surface.faces)
-    return MorphTargets(base, targets, normals, changes, weights, error)
+    drawn = drawn_surface(surface)
+    normals, changes = _normals(base, targets, known, drawn)
+    return MorphTargets(base, targets, normals, changes, weights, error, drawn)
 
 
 def fitted_targets(model: ReducedModel, shapes: ArrayLike, *, count: int = 8) -> MorphTargets:
@@ -100,8 +105,18 @@ def fitted_targets(model: ReducedModel, shapes: ArrayLike, *, count: int = 8) ->
     targets, weights = _leading((seen - base).reshape(len(given), -1), count)
     targets = targets.reshape(len(targets), -1, 3)
     error = _largest_distance(base, targets, weights, seen)
-    normals, changes = _normals(base, targets, weights, surface.faces)
-    return MorphTargets(base, targets, normals, changes, weights, error)
+    drawn = drawn_surface(surface)
+    normals, changes = _normals(base, targets, weights, drawn)
+    return MorphTargets(base, targets, normals, changes, weights, error, drawn)
+
+
+def still_shape(model: ReducedModel, shape: ArrayLike) -> MorphTargets:
+    """One shape (n, 3) without any targets."""
+    base = model.surface.vertices(shape)
+    drawn = drawn_surface(model.surface)
+    none = np.zeros((0, *base.shape))
+    normals, changes = _normals(base, none, np.zeros((0, 0)), drawn)
+    return MorphTargets(base, none, normals, changes, np.zeros((0, 0)), 0.0, drawn)
 
 
 def unit_normals(vertices: FloatArray, faces: NDArray[np.int32]) -> FloatArray:
@@ -130,18 +145,18 @@ def _leading(rows: FloatArray, count: int) -> tuple[FloatArray, FloatArray]:
 
 @single_threaded_blas
 def _normals(
-    base: FloatArray, targets: FloatArray, weights: FloatArray, faces: NDArray[np.int32]
+    base: FloatArray, targets: FloatArray, weights: FloatArray, drawn: DrawnSurface
 ) -> tuple[FloatArray, FloatArray]:
     """Normals of the base, and their changes by target, fitted to the shapes of some weights."""
-    normals = unit_normals(base, faces)
+    vertex, faces = drawn.normal_vertex, drawn.normal_faces
+    normals = unit_normals(base[vertex], faces)
     if len(weights) == 0:
-        return normals, np.zeros_like(targets)
+        return normals, np.zeros((len(targets), *normals.shape))
     flat = targets.reshape(len(targets), -1)
-    changes = np.array(
-        [unit_normals(base + (w @ flat).reshape(-1, 3), faces) - normals for w in weights]
-    )
+    shapes = ((base + (w @ flat).reshape(-1, 3))[vertex] for w in weights)
+    changes = np.array([unit_normals(shape, faces) - normals for shape in shapes])
     fitted = np.linalg.pinv(weights, rcond=1e-6) @ changes.reshape(len(weights), -1)
-    return normals, fitted.reshape(targets.shape)
+    return normals, fitted.reshape(len(targets), *normals.shape)
 
 
 def _largest_distance(

@@ -12,12 +12,14 @@ from numpy.typing import NDArray
 from ..disk import atomic_file
 from ..reduction import ReducedModel
 from .glb_file import GlbFile
+from .glb_materials import own_materials, plain_material
+from .glb_mesh import glb_mesh
 from .morph_targets import MorphTargets
 
+FloatArray = NDArray[np.float64]
 #: Quaternions x, y, z, w that turn an axis to y, which is up in glTF.
 _HALF = float(np.sqrt(0.5))
 _TO_Y = {"x": (0.0, 0.0, _HALF, _HALF), "y": None, "z": (-_HALF, 0.0, 0.0, _HALF)}
-_CLAY, _WHITE = (0.72, 0.63, 0.53, 1.0), (1.0, 1.0, 1.0, 1.0)
 
 
 def write_glb(
@@ -25,10 +27,10 @@ def write_glb(
     model: ReducedModel,
     morphs: MorphTargets,
     *,
-    name: str = "snapspace",
+    name: str | None = None,
     up: str | None = None,
     frames_per_second: float = 30.0,
-    colors: NDArray[np.float64] | None = None,
+    colors: FloatArray | None = None,
 ) -> Path:
     """Writes the surface of a model with morph targets, and an animation of their weights.
 
@@ -37,18 +39,20 @@ def write_glb(
     path : path
         Ends in .glb. An existing file is replaced once the new one is complete.
     model : ReducedModel
-        Its surface has the faces.
+        Its surface has the faces, and the texture coordinates, materials, base-colour textures,
+        colours and sharp edges of the user's own file, if it is of one.
     morphs : MorphTargets
         From `mode_targets` or `fitted_targets`. With two or more rows of weights these are the
         frames of an animation; one row is the initial state.
-    name : str
-        Name of mesh and node.
+    name : str, optional
+        Of mesh and node. Default: the file's name without its extension.
     up : "x", "y" or "z", default that of the model
         The axis that points up; a rotation of the node turns it to glTF's y. Numbers stay in the
         model's length unit.
     frames_per_second : float, default 30
     colors : ndarray, (s, 3), optional
-        Colours of the vertices, sRGB in [0, 1]. Default: one material for all.
+        Colours of the vertices, sRGB in [0, 1], in place of the user's own materials. Default:
+        these materials, or one like clay.
 
     Returns
     -------
@@ -59,6 +63,11 @@ def write_glb(
     ------
     ValueError
         For another extension, an unknown axis, or a frame rate that is not positive.
+
+    Warns
+    -----
+    MeshNotice
+        Of materials and textures that are missing or damaged, or are no PNG or JPEG.
     """
     target = Path(path)
     if target.suffix.lower() != ".glb":
@@ -68,19 +77,24 @@ def write_glb(
         raise ValueError(f"write_glb: up is '{axis}', but it must be one of x, y, z")
     if not (np.isfinite(frames_per_second) and frames_per_second > 0.0):
         raise ValueError(f"write_glb: frames_per_second {frames_per_second} must be positive")
-    file = GlbFile()
+    file, drawn = GlbFile(), morphs.drawn
+    if colors is None and drawn.look is not None:
+        materials = own_materials(file, drawn.look, both_sides=drawn.both_sides)
+    else:
+        materials = plain_material(painted=colors is not None, both_sides=drawn.both_sides)
+    title = target.stem if name is None else name
     content = {
         "asset": {"version": "2.0", "generator": "Snapspace"},
         "scene": 0,
         "scenes": [{"nodes": [0]}],
-        "nodes": [_node(name, axis)],
-        "materials": [_material(_CLAY if colors is None else _WHITE)],
-        "meshes": [_mesh(file, name, morphs, model.surface.faces, colors)],
+        "nodes": [_node(title, axis)],
+        "meshes": [glb_mesh(file, title, morphs, colors=colors)],
+        **materials,
     }
     if len(morphs.weights) > 1:
         content["animations"] = [_animation(file, morphs.weights, frames_per_second)]
     with atomic_file(target) as temporary:
-        temporary.write_bytes(file.bytes(content))
+        temporary.write_bytes(file.file_bytes(content))
     return target
 
 
@@ -90,47 +104,7 @@ def _node(name: str, axis: str) -> dict[str, Any]:
     return node if rotation is None else {**node, "rotation": list(rotation)}
 
 
-def _material(color: tuple[float, ...]) -> dict[str, Any]:
-    roughness = {"baseColorFactor": list(color), "metallicFactor": 0.0, "roughnessFactor": 0.8}
-    return {"name": "clay", "pbrMetallicRoughness": roughness}
-
-
-def _mesh(
-    file: GlbFile,
-    name: str,
-    morphs: MorphTargets,
-    faces: NDArray[np.int32],
-    colors: NDArray[np.float64] | None,
-) -> dict[str, Any]:
-    attributes = {
-        "POSITION": file.floats(morphs.base, vertices=True, bounds=True),
-        "NORMAL": file.floats(morphs.normals, vertices=True),
-    }
-    if colors is not None:
-        attributes["COLOR_0"] = file.floats(_linear(colors), vertices=True)
-    primitive = {"attributes": attributes, "indices": file.indices(faces), "material": 0}
-    mesh: dict[str, Any] = {"name": name, "primitives": [primitive]}
-    if len(morphs.targets) == 0:
-        return mesh
-    primitive["targets"] = [
-        {
-            "POSITION": file.floats(moved, vertices=True, bounds=True),
-            "NORMAL": file.floats(turned, vertices=True),
-        }
-        for moved, turned in zip(morphs.targets, morphs.normal_targets, strict=True)
-    ]
-    first = morphs.weights[0] if len(morphs.weights) else np.zeros(len(morphs.targets))
-    names = [f"mode {number + 1}" for number in range(len(morphs.targets))]
-    return {**mesh, "weights": first.tolist(), "extras": {"targetNames": names}}
-
-
-def _linear(colors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Colours of glTF's vertices are linear; these are sRGB (IEC 61966-2-1)."""
-    steep = np.clip((colors + 0.055) / 1.055, 0.0, 1.0) ** 2.4
-    return np.where(colors <= 0.04045, colors / 12.92, steep)
-
-
-def _animation(file: GlbFile, weights: NDArray[np.float64], rate: float) -> dict[str, Any]:
+def _animation(file: GlbFile, weights: FloatArray, rate: float) -> dict[str, Any]:
     times = file.floats(np.arange(len(weights)) / rate, vertices=False, bounds=True)
     values = file.floats(weights.reshape(-1), vertices=False)
     return {

@@ -96,9 +96,9 @@ def test_a_file_of_triangles_and_positions_loses_nothing_in_another_format(
 
 
 def test_mistakes_are_named(run: Run, model: Path, own_model: Path, tmp_path: Path) -> None:
-    out = tmp_path / "out.glb"
-    text = "a .glb file is written only in place of the surface that the model was made from"
-    assert f"{out}: {text}, but this one has no surface file; give --surface FILE.glb" in run(
+    out = tmp_path / "out.gltf"
+    text = "a .gltf file is written only in place of the surface that the model was made from"
+    assert f"{out}: {text}, but this one has no surface file; give --surface FILE.gltf" in run(
         "pose", model, *MOVE, "-o", out).error  # fmt: skip
     assert "this one has cube.obj; " in run("pose", own_model, *MOVE, "-o", out).error
     far = tmp_path / "far.obj"

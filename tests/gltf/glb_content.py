@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 _DTYPES = {5126: "<f4", 5125: "<u4"}
-_WIDTHS = {"SCALAR": 1, "VEC3": 3}
+_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}
 
 
 class GlbContent:
@@ -33,6 +33,10 @@ class GlbContent:
         start, count = view["byteOffset"], about["count"] * width
         array = np.frombuffer(self._binary, dtype, count, start)
         return array.reshape(-1, width) if width > 1 else array
+
+    def picture(self, image: int) -> bytes:
+        view = self.json["bufferViews"][self.json["images"][image]["bufferView"]]
+        return self._binary[view["byteOffset"] :][: view["byteLength"]]
 
     @property
     def primitive(self) -> dict[str, Any]:

@@ -14,6 +14,7 @@ import pytest
 
 from snapspace import PosingModel, write_animation
 
+from ..own_file import own_file, with_file
 from ..page.tools import ROOT
 
 MODULES = ROOT / "web" / "node_modules" / "three"
@@ -49,6 +50,10 @@ renderer.render(world, camera);
 const pixels = new Uint8Array(4 * 200 * 200);
 const gl = renderer.getContext();
 gl.readPixels(0, 0, 200, 200, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+const more = (a, b) =>
+  pixels.filter((value, i) => i % 4 === a && value > pixels[i + b - a] + 60).length;
+window.reddish = more(0, 2);
+window.bluish = more(2, 0);
 window.covered = pixels.filter((value, i) => i % 4 === 0 && value > 20).length;
 </script>
 """
@@ -95,5 +100,24 @@ def test_three_js_plays_the_path(
             found = np.array(page.evaluate(f"shapeAt({frame / 10})"))
             x, y, z = posing_model.surface.vertices(shapes[frame]).T
             np.testing.assert_allclose(found, np.column_stack([x, z, -y]), atol=close)
+    finally:
+        page.close()
+
+
+def test_three_js_draws_the_users_texture(
+    posing_model: PosingModel, address: str, tmp_path: Path, chromium: Any
+) -> None:
+    """It is red on one half of the body and blue on the other; clay is neither."""
+    model = with_file(posing_model, own_file(posing_model))
+    session = model.session()
+    nod = session.animate([{"head": ((0, 0.5, 0.4), (0, 0, 0.4))}], frames=3)
+    write_animation(tmp_path / "nod.glb", model, [session.vertices for _ in nod])
+    (tmp_path / "index.html").write_text(PAGE, encoding="utf-8")
+    page = chromium.new_page()
+    try:
+        page.goto(f"{address}/index.html")
+        page.wait_for_function("window.covered !== undefined")
+        covered, red, blue = (page.evaluate(name) for name in ("covered", "reddish", "bluish"))
+        assert min(red, blue) > 0.1 * covered, (covered, red, blue)
     finally:
         page.close()

@@ -105,8 +105,9 @@ def test_the_khronos_validator_finds_nothing(
 def test_the_same_model_gives_the_same_bytes(
     posing_model: PosingModel, shapes: Shapes, tmp_path: Path
 ) -> None:
-    paths = [tmp_path / "a.glb", tmp_path / "b.glb"]
+    paths = [tmp_path / name / "nod.glb" for name in ("a", "b")]
     for path in paths:
+        path.parent.mkdir()
         write_animation(path, posing_model, shapes)
     assert paths[0].read_bytes() == paths[1].read_bytes()
 

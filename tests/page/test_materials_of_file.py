@@ -12,52 +12,18 @@ import pytest
 from PIL import Image
 
 from snapspace import PosingModel, export_html
-from snapspace.mesh import MeshNotice, SurfaceFile, compact_surface
+from snapspace.mesh import MeshNotice, SurfaceFile
 from snapspace.model_file import appearance
 from snapspace.model_file.appearance import appearance_arrays
 from snapspace.model_file.shown_surface import places_of, surface_arrays, surface_content
 
+from ..own_file import BLUE, RED, own_file, picture, with_file
 from .pages import OpenPage, Page
 
-RED, BLUE = (220, 30, 30), (30, 40, 220)
 MATERIAL = "[...document.querySelectorAll('[role=radio]')].find((b) => b.innerText == 'Material')"
 #: Pixels; the graphics of the tests take 8192 along a side.
 WIDER_THAN_TEXTURES = 9000
 GLOW = 25  # light changes colours, but not which part is the largest
-
-
-def picture(*halves: tuple[int, int, int], width: int = 8) -> bytes:
-    """A PNG whose upper half has one colour and whose lower half the other one."""
-    image = Image.new("RGB", (width, 8), halves[0])
-    image.paste(halves[1], (0, 4, width, 8))
-    file = io.BytesIO()
-    image.save(file, "PNG")
-    return file.getvalue()
-
-
-def own_file(model: PosingModel, *, creases: bool = False) -> SurfaceFile:
-    """The surface as OBJ: the texture's red half over one half of the length, blue over the other.
-
-    The last faces have a green material.
-    """
-    mesh = model.problem.mesh
-    vertices, faces = compact_surface(mesh.vertices, mesh.surface)
-    along = vertices[:, 0] - vertices[:, 0].min()
-    lines = ["mtllib own.mtl", *(f"v {x!r} {y!r} {z!r}" for x, y, z in vertices.tolist())]
-    lines += [f"vt 0.5 {share:.4f}" for share in (along / along.max()).tolist()]
-    lines += [f"vn 0 0 {1 + number}" for number in range(len(faces))]
-    for number, face in enumerate((faces + 1).tolist()):
-        if number in (0, len(faces) - 4):
-            lines.append(f"usemtl {'skin' if number == 0 else 'cap'}")
-        end = f"/{number + 1}" if creases else ""
-        lines.append("f " + " ".join(f"{v}/{v}{end}" for v in face))
-    mtl = b"newmtl skin\nmap_Kd own.png\nnewmtl cap\nKd 0.08 0.63 0.24\n"
-    beside = {"own.mtl": mtl, "own.png": picture(RED, BLUE)}
-    return SurfaceFile("own.obj", "\n".join(lines).encode(), beside=beside)
-
-
-def with_file(model: PosingModel, file: SurfaceFile) -> PosingModel:
-    return replace(model, surface=replace(model.surface, source=file))
 
 
 def pixel(page: Page, x: float, y: float) -> np.ndarray:

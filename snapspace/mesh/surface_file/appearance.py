@@ -59,6 +59,12 @@ class Appearance:
     textures: tuple[bytes, ...] = ()
     missing: tuple[str, ...] = ()
 
+    @property
+    def shows_anything(self) -> bool:
+        """Whether there is more than one white material without texture, and normals."""
+        plain = all(one.texture is None and min(one.color) >= 1.0 for one in self.materials)
+        return not plain or self.colors is not None
+
 
 class Textures:
     """Pictures by name, each of them once."""
