@@ -8,12 +8,13 @@ from typing import Any
 import click
 
 from ..doctor import Finding, MendedSurface, SurfaceReport, check_surface, mend_surface
-from ..mesh import read_surface, read_tets, write_surface, write_tets
+from ..mesh import open_surface, read_tets, write_surface, write_tets
 from ..mesh.input_path import existing_file, writable_path
 from .console import notice, print_facts, print_json, print_next
 from .files import SURFACE_INPUTS, SURFACE_OUTPUTS, TET_INPUTS, TET_OUTPUTS
 from .mesh_info import mesh_info
 from .options import FILE, json_option
+from .own_surface import is_plain
 from .progress import spinner
 
 FINE, FAULTS = 0, 1
@@ -55,7 +56,8 @@ def check(ctx: click.Context, /, file: Path, output: Path | None, as_json: bool)
 
 
 def _surface(file: Path, output: Path | None) -> dict[str, Any]:
-    vertices, faces = read_surface(file)
+    source = open_surface(file)
+    vertices, faces = source.vertices, source.faces
     with spinner("checking the surface"):
         report = check_surface(vertices, faces)
     _print(f"{file}: surface", report)
@@ -64,13 +66,28 @@ def _surface(file: Path, output: Path | None) -> dict[str, Any]:
         mended = mend_surface(vertices, faces)
         left = check_surface(mended.vertices, mended.faces)
         write_surface(output, mended.vertices, mended.faces)
-        for note in mended.notes:
+        for note in mended.notes or ("there was nothing to mend",):
             notice(note)
+        if not is_plain(source):
+            notice(
+                f"notice: {output} has triangles and positions only; `build` and `view` mend "
+                f"{file.name} when they fill it, and keep all that it has"
+            )
         _print(f"{output}: mended", left)
         figures["mended"] = {**left.as_json(), **_mending(mended), "output": str(output)}
-    elif any(finding.mended and finding.fault for finding in report.findings):
-        print_next([("mend it", ["check", file, "--fix", f"{file.stem}-mended.obj"])])
+    else:
+        print_next(_suggestions(file, report))
     return figures
+
+
+def _suggestions(file: Path, report: SurfaceReport) -> list[tuple[str, list[str | Path]]]:
+    """What to try next."""
+    commands: list[tuple[str, list[str | Path]]] = []
+    if any(finding.mended and finding.fault for finding in report.findings):
+        commands.append(("mend it", ["check", file, "--fix", f"{file.stem}-mended.obj"]))
+    if any(finding.details.get("sheet") for finding in report.findings):
+        commands.append(("pose it as a thin shell, open as it is", ["view", file]))
+    return commands
 
 
 def _tets(file: Path, output: Path | None) -> dict[str, Any]:

@@ -55,9 +55,11 @@ def print_facts(title: str, facts: Iterable[tuple[str, str]]) -> None:
 
 
 def print_next(commands: Iterable[tuple[str, Sequence[str | Path]]]) -> None:
-    """Prints what to try next, with commands that can be copied."""
-    click.echo("next:", err=True)
-    for purpose, words in commands:
+    """Prints what to try next, with commands that can be copied; nothing without any."""
+    given = list(commands)
+    if given:
+        click.echo("next:", err=True)
+    for purpose, words in given:
         click.echo(f"  # {printable(purpose)}", err=True)
         command = shlex.join(["snapspace", *map(str, words)])
         click.echo(f"  {printable(command)}", err=True)

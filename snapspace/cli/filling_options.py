@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, TypeVar
 
 import click
 
+from ..doctor.holes import is_sheet
 from ..extras import need_extra
 from ..filling import SurfaceFilling
 from ..filling.surface_filling import EXACTLY
 from ..mesh import SurfaceFile, TetMesh
+from ..mesh.arrays import FloatArray, IndexArray
 from .console import notice
 from .progress import spinner
 
 Command = TypeVar("Command", bound=Callable[..., Any])
+_AS_SHELL = "give --shell THICKNESS, which takes it as it is"
 
 
 def edge_length_option(*, default: str) -> Callable[[Command], Command]:
@@ -63,15 +67,30 @@ def filled(file: SurfaceFile, filling: SurfaceFilling) -> tuple[TetMesh, bool]:
 
     def stage(name: str, *_: int) -> None:
         if name == EXACTLY and name not in stages and not filling.exact:
-            notice(
-                f"notice: {file.name} has parts or gaps too thin for quick tets of this size; "
-                "fTetWild fills it, in up to some minutes (a shorter --edge-length may be faster)"
-            )
+            if is_sheet(file.vertices, file.faces):
+                why = "is open; fTetWild guesses its inside, in up to some minutes (a sheet such "
+                why += f"as cloth has none: {_AS_SHELL})"
+            else:
+                why = "has parts or gaps too thin for quick tets of this size; fTetWild fills it, "
+                why += "in up to some minutes (a shorter --edge-length may be faster)"
+            notice(f"notice: {file.name} {why}")
         stages.add(name)
 
     with spinner(f"filling {file.name} with tets"):
         try:
-            tets = filling.fill(file.vertices, file.faces, stage=stage)
+            with naming_shells(file.vertices, file.faces):
+                tets = filling.fill(file.vertices, file.faces, stage=stage)
         except ValueError as error:
             raise ValueError(f"{file.name}: {error}") from None
     return tets, EXACTLY in stages
+
+
+@contextmanager
+def naming_shells(vertices: FloatArray, faces: IndexArray) -> Iterator[None]:
+    """Adds to an error of filling that an open surface may be a shell."""
+    try:
+        yield
+    except ValueError as error:
+        if not is_sheet(vertices, faces):
+            raise
+        raise ValueError(f"{error}; or, for a sheet such as cloth, {_AS_SHELL}") from None

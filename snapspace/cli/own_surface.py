@@ -85,7 +85,7 @@ def check_own_output(
     if source is None or suffix in TET_OUTPUTS:
         return
     if suffix != source.suffix:
-        if _is_plain(source):
+        if is_plain(source):
             return
         notice(
             f"notice: a {suffix} file has triangles and positions only; write {source.suffix} to "
@@ -135,11 +135,13 @@ def _notice_glb(source: SurfaceFile | None, *, whole: bool) -> None:
         )
 
 
-def _is_plain(source: SurfaceFile) -> bool:
+def is_plain(source: SurfaceFile) -> bool:
     """Whether a file has triangles and positions only, so that any format keeps all of it."""
-    if source.suffix == ".off":
-        # the word OFF with three counts, and what triangles take: colours and comments are more
-        words = 4 + 3 * len(source.vertices) + 4 * len(source.faces)
+    if source.suffix in (".off", ".obj"):
+        # a letter or number begins each row, and OFF the file, with three counts: more words are
+        # colours, names, comments and others
+        head = 4 if source.suffix == ".off" else len(source.vertices)
+        words = head + 3 * len(source.vertices) + 4 * len(source.faces)
         only_triangles = bool((np.diff(source.starts) == 3).all())
         return only_triangles and len(source.data.split()) <= words
     return source.suffix == ".stl"

@@ -31,6 +31,7 @@ from ..problem import Poses, ShellPoses
 from ..registration import ScalePolicy
 from .console import notice
 from .files import SURFACE_INPUTS, TET_INPUTS
+from .filling_options import naming_shells
 from .fit_cache import FitCache
 from .pose_scales import notice_sizes, scaled_poses
 from .progress import spinner, step_progress
@@ -193,7 +194,7 @@ def _tets_of(
     if known is not None:
         notice("resuming: the first pose was filled before")
         return known
-    with spinner("filling the first pose with tets"):
+    with spinner("filling the first pose with tets"), naming_shells(vertices, faces):
         mesh = fill_surface(vertices, faces, mend=True, **size)
     cache.save_tets(vertices, faces, size, mesh)
     return mesh

@@ -10,9 +10,9 @@ from ..mesh.arrays import FloatArray, IndexArray
 from ..mesh.edges import Edges
 from .cleaned import Cleaned
 from .components import face_components, orientation, parts_apart
-from .fill_holes import fillable
+from .fill_holes import closable_holes
 from .finding import Finding
-from .holes import Hole, holes_of
+from .holes import Hole, is_sheet
 
 #: Parts with a smaller share of the area are dust, which filling leaves out.
 DUST = 1e-3
@@ -20,14 +20,13 @@ DUST = 1e-3
 
 def edge_findings(vertices: FloatArray, faces: IndexArray, edges: Edges) -> list[Finding]:
     """All findings about edges; none for a closed surface in one part, oriented alike."""
-    diagonal = float(np.linalg.norm(np.ptp(vertices[faces].reshape(-1, 3), axis=0)))
-    holes = holes_of(vertices, edges)
     turn, _, twisted = orientation(edges)
     fans = int((edges.uses > 2).sum())
     parts = int(face_components(faces, len(vertices)).max()) + 1
     found: list[Finding] = []
-    if holes:
-        found.append(_holes(holes, diagonal))
+    if (edges.uses == 1).any():
+        oriented = np.where(turn[:, None], faces[:, ::-1], faces)  # as mending does it first
+        found.append(_holes(closable_holes(vertices, oriented), is_sheet(vertices, faces)))
     if turn.any() or twisted.any():
         found.append(_orientation(turn, twisted))
     if fans:
@@ -106,34 +105,44 @@ def copy_findings(clean: Cleaned, unused: int) -> list[Finding]:
     return found
 
 
-def _holes(holes: list[Hole], diagonal: float) -> Finding:
+def _holes(holes: list[tuple[Hole, IndexArray | None]], sheet: bool) -> Finding:
     some = [
         f"{hole.edges} edges, length {hole.length:.4g}, around "
         f"({', '.join(f'{x:.4g}' for x in hole.center)})"
-        for hole in holes[:3]
+        for hole, _ in holes[:3]
     ]
     more = f"; and {len(holes) - 3} more" if len(holes) > 3 else ""
-    can = sum(fillable(hole, diagonal) for hole in holes)
+    can = sum(fill is not None for _, fill in holes)
+    share = "them" if can == len(holes) else f"{can} of {len(holes)}"
+    if can == len(holes):
+        filling = "closes them"
+    elif can:
+        filling = f"closes {share}, and leaves the others to the winding number (fTetWild)"
+    else:
+        filling = "closes none of them, and guesses it by the winding number (fTetWild)"
+    cures = [f"--fix closes {share}"] * (can > 0) + ["close them in a mesh editor"]
+    if sheet:
+        cures.append("leave a sheet such as cloth open: it is a shell")
     return Finding(
         name="holes",
         fault=True,
         count=len(holes),
         text=f"it is not closed: {counted(len(holes), 'hole')} ({'; '.join(some)}{more})",
-        meaning=f"tets need an inside; {can} of {len(holes)} are closed when it is filled, the "
-        "others by the winding number (fTetWild)",
-        cure="--fix closes flat and small holes; or close them in a mesh editor",
+        meaning=f"tets need an inside; filling {filling}",
+        cure="; or ".join(cures),
         mended=can > 0,
         details={
+            "sheet": sheet,
             "holes": [
                 {
                     "edges": hole.edges,
                     "length": hole.length,
                     "diameter": hole.diameter,
                     "center": hole.center.tolist(),
-                    "closed_by_fix": fillable(hole, diagonal),
+                    "closed_by_fix": fill is not None,
                 }
-                for hole in holes
-            ]
+                for hole, fill in holes
+            ],
         },
     )
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .holes import Hole
+from ..mesh.edges import edges_of
+from .cleaned import repeated_faces
+from .holes import Hole, holes_of
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int32]
@@ -17,7 +19,31 @@ _LONGEST = 400
 _FLAT, _SMALL = 0.15, 0.05
 
 
-def fillable(hole: Hole, diagonal: float) -> bool:
+def closable_holes(vertices: FloatArray, faces: IndexArray) -> list[tuple[Hole, IndexArray | None]]:
+    """The holes of a surface, longest first, each with the triangles that close it.
+
+    None where it is no simple loop, or neither flat nor small, or a triangle would cover a face
+    that is there: the "hole" around a single triangle, or at the corner of a sheet.
+    """
+    diagonal = float(np.linalg.norm(np.ptp(vertices[faces].reshape(-1, 3), axis=0)))
+    holes = holes_of(vertices, edges_of(faces))
+    at_hole = np.zeros(len(vertices), np.bool_)
+    for hole in holes:
+        at_hole[hole.vertices] = True
+    near = faces[at_hole[faces].all(axis=1)]
+    return [(hole, _closed_by(vertices, near, hole, diagonal)) for hole in holes]
+
+
+def _closed_by(
+    vertices: FloatArray, near: IndexArray, hole: Hole, diagonal: float
+) -> IndexArray | None:
+    if hole.loop is None or not _fillable(hole, diagonal):
+        return None
+    fill = hole_triangles(vertices, hole.loop)
+    return None if repeated_faces(np.concatenate([near, fill])).any() else fill
+
+
+def _fillable(hole: Hole, diagonal: float) -> bool:
     """Whether a hole is a simple loop, and flat or small."""
     if hole.loop is None or not 3 <= hole.edges <= _LONGEST:
         return False

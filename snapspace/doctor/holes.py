@@ -9,9 +9,15 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from ..mesh.edges import Edges
+from ..mesh.arrays import IndexArray
+from ..mesh.edges import Edges, edges_of
+from .cleaned import cleaned
 
 FloatArray = NDArray[np.float64]
+
+#: A hole of a larger diameter, as a share of the diagonal, may be wanted: as that of cloth, a leaf
+#: or a mask, which are shells.
+WIDEST_FAULT = 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,6 +29,7 @@ class Hole:
     diameter : largest distance along an axis of its bounding box
     flatness : largest distance from the best plane, as a share of the diameter
     center : (3,), mean of the vertices
+    vertices : in ascending order
     loop : vertices in the order in which faces run along the edges; None if they are no simple loop
     """
 
@@ -31,6 +38,7 @@ class Hole:
     diameter: float
     flatness: float
     center: FloatArray
+    vertices: NDArray[np.intp]
     loop: NDArray[np.intp] | None
 
 
@@ -68,6 +76,7 @@ def _hole(vertices: FloatArray, directed: NDArray[np.intp]) -> Hole:
         diameter=diameter,
         flatness=height / diameter if diameter > 0 else 0.0,
         center=center,
+        vertices=used,
         loop=_loop(directed, used),
     )
 
@@ -83,3 +92,13 @@ def _loop(directed: NDArray[np.intp], used: NDArray[np.intp]) -> NDArray[np.intp
             return None
         loop.append(after)
     return np.array(loop, np.intp) if follower.get(loop[-1]) == loop[0] else None
+
+
+def is_sheet(vertices: FloatArray, faces: IndexArray) -> bool:
+    """Whether a surface has a hole so wide that it may be open on purpose, as cloth is."""
+    clean = cleaned(vertices, faces).faces
+    if not len(clean):
+        return False
+    diagonal = float(np.linalg.norm(np.ptp(vertices[clean].reshape(-1, 3), axis=0)))
+    holes = holes_of(vertices, edges_of(clean))
+    return any(hole.diameter > WIDEST_FAULT * diagonal for hole in holes)

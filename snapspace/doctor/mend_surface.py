@@ -13,10 +13,9 @@ from ..mesh.closed_surface import enclosed_volume
 from ..mesh.edges import edges_of
 from ..mesh.surface import compact_surface
 from ..mesh.surface_file.surface_file import checked_surface
-from .cleaned import cleaned, repeated_faces
+from .cleaned import cleaned
 from .components import orientation
-from .fill_holes import fillable, hole_triangles
-from .holes import holes_of
+from .fill_holes import closable_holes
 
 FloatArray = NDArray[np.float64]
 
@@ -95,14 +94,15 @@ def mend_surface(
         notes.append(
             f"turned {counted(int(turn.sum()), 'face')} round to agree with the neighbours"
         )
-    fills = _fills(used, mended) if close_holes else []
+    holes = closable_holes(used, mended) if close_holes else []
+    fills = [fill for _, fill in holes if fill is not None]
     if fills:
         mended = np.concatenate([mended, *fills])
     invented = sum(map(len, fills))
     area = _area(used, mended[len(mended) - invented :])
     if fills:
-        holes = counted(len(fills), "hole")
-        notes.append(f"closed {holes} with {counted(invented, 'face')}, area {area:.4g}")
+        closed = counted(len(fills), "hole")
+        notes.append(f"closed {closed} with {counted(invented, 'face')}, area {area:.4g}")
     center = (used.min(axis=0) + used.max(axis=0)) / 2.0
     if not edges_of(mended).balance.any() and enclosed_volume(used - center, mended) < 0:
         mended = np.ascontiguousarray(mended[:, ::-1])
@@ -110,17 +110,6 @@ def mend_surface(
     return MendedSurface(
         vertices=used, faces=mended, invented=invented, invented_area=area, notes=tuple(notes)
     )
-
-
-def _fills(vertices: FloatArray, faces: IndexArray) -> list[IndexArray]:
-    diagonal = float(np.linalg.norm(np.ptp(vertices, axis=0)))
-    fills = [
-        hole_triangles(vertices, hole.loop)
-        for hole in holes_of(vertices, edges_of(faces))
-        if hole.loop is not None and fillable(hole, diagonal)
-    ]
-    # the "hole" around a single triangle is that triangle
-    return [fill for fill in fills if not repeated_faces(np.concatenate([faces, fill])).any()]
 
 
 def _area(vertices: FloatArray, faces: IndexArray) -> float:

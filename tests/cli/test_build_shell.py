@@ -14,15 +14,22 @@ from snapspace import (
     PosingModel,
     ShellMesh,
     load,
+    open_surface,
     read_problem,
     read_problem_surface,
     read_surface,
+    stuff_surface,
     write_surface,
 )
+from snapspace.cli.filling_options import filled, naming_shells
+from snapspace.filling import SurfaceFilling
+from snapspace.filling.surface_filling import EXACTLY
+from snapspace.generators import bar
 from snapspace.problem import problem_content
 
 from ..shells.sheets import sheet
 from .conftest import Run
+from .odd_surfaces import block, together
 
 SMALL = ("--samples", 14, "--dimension", 6)
 
@@ -155,3 +162,39 @@ def test_a_surface_as_rigid_as_possible_is_built_and_described(
     loaded = load(model)
     assert loaded.problem.material == ARAP(mu=2.0)
     assert "vertices with their triangles" in " ".join(run("info", model).err.split())
+
+
+def test_a_sheet_that_cannot_be_filled_may_be_a_shell(
+    run: Run, surface: Path, tmp_path: Path
+) -> None:
+    advice = "or, for a sheet such as cloth, give --shell THICKNESS, which takes it as it is"
+    words = ("-o", tmp_path / "sheet.snapspace")
+    build = run("build", "--problem", problem(tmp_path), surface, *words)
+    assert "encloses no volume" in build.error and advice in build.error
+    blend = run("interpolate", surface, surface, *words)
+    assert "encloses no volume" in blend.error and advice in blend.error
+
+
+def test_a_closed_surface_is_no_sheet() -> None:
+    vertices, faces = together(block(), block(y=3.0))
+    with pytest.raises(ValueError, match=r"remove all but one$"), naming_shells(vertices, faces):
+        stuff_surface(vertices, faces)
+
+
+def test_the_notice_says_why_quick_tets_fail(
+    surface: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """An open surface is not too thin for them."""
+    filling = SurfaceFilling()
+
+    def fill(_: object, vertices: Any, faces: Any, *, stage: Any) -> Any:
+        stage(EXACTLY)
+        return bar(2, 1, 1)
+
+    monkeypatch.setattr(SurfaceFilling, "fill", fill)
+    filled(open_surface(surface), filling)
+    assert "sheet.obj is open; fTetWild guesses its inside" in capsys.readouterr().err
+    closed = surface.with_name("block.obj")
+    write_surface(closed, *block())
+    filled(open_surface(closed), filling)
+    assert "block.obj has parts or gaps too thin" in capsys.readouterr().err

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,8 @@ import pytest
 from snapspace import check_surface, read_surface, read_tets, write_surface, write_tets
 from snapspace.mesh import compact_surface
 
+from ..mesh.surface_files import write_file
+from ..shells.sheets import rolled, sheet
 from .conftest import Run
 from .files import bar_mesh, write_raw
 
@@ -36,12 +39,37 @@ def test_a_fault_has_exit_code_1_and_a_cure(run: Run, tmp_path: Path) -> None:
     assert f"snapspace check {file} --fix open-mended.obj" in result.err
 
 
+def test_cloth_is_not_to_be_mended_but_a_shell(run: Run, tmp_path: Path) -> None:
+    """No triangles close it, because those at its corners are there already."""
+    cloth = sheet(8, 5)
+    file = tmp_path / "cloth.obj"
+    write_surface(file, rolled(cloth.vertices, 0.4), cloth.triangles)
+    result = run("check", file, "--json")
+    (holes,) = json.loads(result.out)["findings"]
+    assert not holes["mended"] and not holes["details"]["holes"][0]["closed_by_fix"]
+    assert "--fix" not in result.err
+    assert "leave a sheet such as cloth open: it is a shell" in holes["cure"]
+    assert f"snapspace view {file}" in result.err
+    fixed = json.loads(run("check", file, "--fix", tmp_path / "out.obj", "--json").out)
+    assert fixed["mended"]["invented_faces"] == 0, "as the finding says"
+
+
 def test_fix_writes_a_surface_that_is_fine(run: Run, tmp_path: Path) -> None:
     out = tmp_path / "mended.obj"
     report = run("check", open_bar(tmp_path), "--fix", out, "--json").json
     assert not report["fine"] and report["mended"]["fine"]
     assert report["mended"]["invented_faces"] == 1
     assert check_surface(*read_surface(out)).fine
+
+
+def test_fix_says_what_it_did_and_what_is_lost(run: Run, tmp_path: Path) -> None:
+    write_file(tmp_path, "obj relative")
+    result = run("check", tmp_path / "cube.obj", "--fix", tmp_path / "out.obj")
+    assert result.code == 0 and "dropped 1 vertex without faces" in result.err
+    assert "has triangles and positions only; `build` and `view` mend cube.obj" in result.err
+    again = run("check", tmp_path / "out.obj", "--fix", tmp_path / "again.obj")
+    assert "snapspace: there was nothing to mend\n" in again.err
+    assert "positions only" not in again.err, "it had no more"
 
 
 def test_tets_are_checked_and_repaired(run: Run, tmp_path: Path) -> None:

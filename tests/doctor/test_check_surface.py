@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from snapspace import check_surface
+from snapspace import check_surface, mend_surface
 from snapspace.generators import bar
 from snapspace.mesh import compact_surface
+
+from ..cli.odd_surfaces import ball
 
 Vertices, Faces = NDArray[np.float64], NDArray[np.int32]
 Surface = tuple[Vertices, Faces]
@@ -192,3 +194,25 @@ def test_what_is_no_surface_is_refused(
 ) -> None:
     with pytest.raises(ValueError, match=message):
         check_surface(vertices, faces)
+
+
+def test_what_is_said_of_holes_is_what_mending_does() -> None:
+    """The removed end is closed; a long cut around a corner is not."""
+    vertices, faces = box()
+    centers = vertices[faces].mean(axis=1)
+    end = centers[:, 0] > 3.99
+    corner = (centers[:, 0] < 2.0) & (centers[:, 1:] > 0.3).any(axis=1)
+    for removed, can in ((end, 1), (corner, 0), (end | corner, 1)):
+        (holes,) = (one for one in check_surface(vertices, faces[~removed]).findings if one.fault)
+        closed = [hole["closed_by_fix"] for hole in holes.details["holes"]]
+        mended = mend_surface(vertices, faces[~removed])
+        assert sum(closed) == can == (mended.invented > 0)
+        assert holes.mended == (can > 0)
+        assert ("closes none of them" in holes.meaning) == (can == 0)
+        assert holes.details["sheet"]
+
+
+def test_a_small_hole_is_no_sheet() -> None:
+    vertices, faces = ball(40)
+    (holes,) = check_surface(vertices, faces[1:]).findings
+    assert not holes.details["sheet"] and "cloth" not in holes.cure
