@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ..disk import flushed_folder
 from ..notice import Notice
 from ..problem import Problem
-from .sample_file import Samples, read_indices, read_samples, write_samples
+from .sample_file import Samples, read_indices, read_run, read_samples, write_samples
 from .snapshots import SampleReport
 
 FloatArray = NDArray[np.float64]
@@ -56,6 +56,8 @@ def run_key(problem: Problem, parameters: FloatArray, options: dict[str, Any]) -
 class Checkpoint:
     """A folder of finished samples for one run: the same problem, samples and solver options.
 
+    `solve_snapshots` refuses the folder of another run, whose shapes belong to other parameters.
+
     Parameters
     ----------
     folder : Path
@@ -76,8 +78,12 @@ class Checkpoint:
         indices: Sequence[int],
         displacements: Iterable[FloatArray],
         reports: Sequence[SampleReport],
+        *,
+        run: str = "",
     ) -> list[FloatArray]:
         """Adds finished samples: their numbers, displacements (3n,) and reports.
+
+        `run` is the `run_key` of the run that solved them.
 
         Returns
         -------
@@ -97,7 +103,7 @@ class Checkpoint:
             if not self.folder.is_dir():
                 self.folder.mkdir(parents=True, exist_ok=True)
                 flushed_folder(self.folder.parent)
-            write_samples(path, indices, rows, reports)
+            write_samples(path, indices, rows, reports, run=run)
             samples = read_samples(path)
         except (OSError, ValueError) as error:
             reason = str(error).removeprefix(f"{path}: ")
@@ -112,19 +118,28 @@ class Checkpoint:
             ) from None
         return [samples[int(index)][0] for index in indices]
 
-    def load(self) -> Samples:
+    def load(self, *, run: str = "") -> Samples:
         """All finished samples by number: displacements (3n,) mapped from the files, and reports.
 
-        Damaged files are skipped with a `CheckpointNotice`.
+        Damaged files are skipped with a `CheckpointNotice`. Raises ValueError for samples of
+        another run than the given one; without a key, those of any run are loaded.
         """
         found: Samples = {}
         for path in self._files():
             try:
                 found.update(read_samples(path))
+                solved_by = read_run(path)
             except (OSError, ValueError) as error:
                 reason = getattr(error, "strerror", None) or error
                 notice = f"{path}: not used ({reason}); its samples are solved again"
                 warnings.warn(notice, CheckpointNotice, stacklevel=2)
+                continue
+            if run and solved_by not in ("", run):
+                raise ValueError(
+                    f"{self.folder}: these samples are of another run: the problem, the parameters "
+                    "or the solver options differ; give another folder, or delete this one with "
+                    "Checkpoint.remove()"
+                )
         return found
 
     def numbers(self) -> set[int]:

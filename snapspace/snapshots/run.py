@@ -17,7 +17,7 @@ from ..interruptible import begin_abandonable
 from ..problem import Problem
 from ..stopping import check_stop, ctrl_c_at_checks
 from .backend import Backend
-from .checkpoint import Checkpoint, CheckpointNotice, UnsavedSamplesError
+from .checkpoint import Checkpoint, CheckpointNotice, UnsavedSamplesError, run_key
 from .executor_backend import ExecutorBackend
 from .guesses import Guesses
 from .held_out import HeldOutError
@@ -87,7 +87,8 @@ class Run:
         self.save_size = options.block  # number of samples to save together
         self.complete = 0  # number of finished leading blocks
         self.quick: list[list[int]] = []  # for leading blocks: samples that others start from
-        for index, (row, report) in (checkpoint.load() if checkpoint else {}).items():
+        self.key = run_key(problem, samples, options.as_key()) if checkpoint else ""
+        for index, (row, report) in (checkpoint.load(run=self.key) if checkpoint else {}).items():
             self.rows[index], self.reports[index] = row, report
         self.found = len(self.reports)
         self.estimate: float | None = None
@@ -273,10 +274,9 @@ class Run:
         if self.checkpoint is None or not self.unsaved:
             return
         places = sorted(self.unsaved)
+        rows, reports = [self.rows[i] for i in places], [self.reports[i] for i in places]
         try:
-            rows = self.checkpoint.save(
-                places, [self.rows[i] for i in places], [self.reports[i] for i in places]
-            )
+            rows = self.checkpoint.save(places, rows, reports, run=self.key)
         except UnsavedSamplesError as error:
             warnings.warn(str(error), CheckpointNotice, stacklevel=2)
             self.save_size = len(places) + self.options.block

@@ -28,8 +28,12 @@ def write_samples(
     indices: Sequence[int],
     displacements: Sequence[FloatArray],
     reports: Sequence[SampleReport],
+    *,
+    run: str = "",
 ) -> None:
     """Writes numbers, displacements (3n,) and reports; the file is either complete or absent.
+
+    `run` is the key of the run that solved them, if it is known.
 
     The displacements are not copied. The layout is that of safetensors (the size of a JSON header
     in eight bytes, the header, then the arrays), with an array `indices` (j,) and an array
@@ -43,12 +47,13 @@ def write_samples(
     numbers = np.asarray(indices, "<i8")
     arrays = [numbers, *(np.ascontiguousarray(row, "<f8") for row in displacements)]
     words = json.dumps([asdict(report) for report in reports])
-    checksum = zlib.crc32(words.encode())
+    checksum = zlib.crc32((words + run).encode())
     for array in arrays:
         checksum = zlib.crc32(array.data.cast("B"), checksum)
     size, width = numbers.nbytes, arrays[-1].size
+    origin = {"run": run} if run else {}
     header = {
-        "__metadata__": {"reports": words, "crc32": f"{checksum:08x}"},
+        "__metadata__": {"reports": words, "crc32": f"{checksum:08x}", **origin},
         "indices": _entry("I64", [len(numbers)], 0),
         "displacements": _entry("F64", [len(numbers), width], size),
     }
@@ -69,6 +74,15 @@ def read_indices(path: Path) -> list[int]:
         return _read_header(file)[0]
 
 
+def read_run(path: Path) -> str:
+    """The key of the run that solved the samples of a file, or "" if it has none.
+
+    Raises ValueError, which names the fault, and OSError.
+    """
+    with path.open("rb") as file:
+        return _read_header(file)[3].get("run", "")
+
+
 def read_samples(path: Path) -> Samples:
     """Displacements (3n,) and reports of a file by sample number, after checking its checksum.
 
@@ -80,7 +94,8 @@ def read_samples(path: Path) -> Samples:
     with path.open("rb") as file:
         indices, shape, offset, metadata = _read_header(file)
         file.seek(offset - 8 * len(indices))
-        if _checksum(file, metadata["reports"]) != metadata["crc32"]:
+        words = metadata["reports"] + metadata.get("run", "")
+        if _checksum(file, words) != metadata["crc32"]:
             raise ValueError("its content has changed")
         reports = _reports(metadata, len(indices))
         rows = _rows(file, shape, offset)
@@ -112,7 +127,7 @@ def _read_header(file: BinaryIO) -> tuple[list[int], tuple[int, int], int, dict[
             "indices": _entry("I64", [count], 0),
             "displacements": _entry("F64", [count, width], 8 * count),
         }
-        known = header == expected and metadata.keys() == {"reports", "crc32"}
+        known = header == expected and metadata.keys() - {"run"} == {"reports", "crc32"}
     except (ValueError, KeyError, TypeError, AttributeError):
         known = False
     if not known or count < 1 or width < 1:
@@ -134,9 +149,9 @@ def _reports(metadata: dict[str, str], count: int) -> list[SampleReport]:
     return reports
 
 
-def _checksum(file: BinaryIO, reports: str) -> str:
-    """Checksum of reports and the rest of the file; read, since a map would fill the memory."""
-    checksum = zlib.crc32(reports.encode())
+def _checksum(file: BinaryIO, words: str) -> str:
+    """Checksum of words and the rest of the file; read, since a map would fill the memory."""
+    checksum = zlib.crc32(words.encode())
     while piece := file.read(PIECE):
         checksum = zlib.crc32(piece, checksum)
     return f"{checksum:08x}"

@@ -71,9 +71,9 @@ def solve_snapshots(
     ------
     ValueError
         For a problem or options of another type, parameters of the wrong shape or not finite,
-        threads out of range, known snapshots of another problem, predictions for other samples or
-        another mesh, or an executor that has lost its workers; then finished samples are in the
-        checkpoint.
+        threads out of range, a checkpoint of another run, known snapshots of another problem,
+        predictions for other samples or another mesh, or an executor that has lost its workers;
+        then finished samples are in the checkpoint.
     Interrupted
         On Ctrl-C, after the finished samples were saved.
     """

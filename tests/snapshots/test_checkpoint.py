@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import nullcontext
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -53,6 +53,33 @@ def keep(whole: Snapshots, checkpoint: Checkpoint, indices: list[int]) -> None:
     found = everything.load()
     displacements = np.array([found[i][0] for i in indices])
     checkpoint.save(indices, displacements, [found[i][1] for i in indices])
+
+
+OTHER_RUNS: dict[str, Callable[[Snapshots], dict[str, Any]]] = {
+    "other samples": lambda whole: {"parameters": parameters(whole.problem, 10, seed=8)},
+    "fewer samples": lambda whole: {"parameters": whole.parameters[:6]},
+    "other options": lambda whole: {"options": replace(OPTIONS, tolerance=1e-3)},
+    "another material": lambda whole: {"problem": posing_bar(material=StVK(mu=2.0))},
+    "another mesh": lambda whole: {"problem": posing_bar(6)},
+}
+
+
+@pytest.mark.parametrize("change", OTHER_RUNS.values(), ids=OTHER_RUNS)
+def test_samples_of_another_run_are_not_taken_for_those_of_this_one(
+    whole: Snapshots, tmp_path: Path, change: Callable[[Snapshots], dict[str, Any]]
+) -> None:
+    """Their shapes would be solutions for other parameters, and look converged."""
+    checkpoint = Checkpoint(tmp_path / "run")
+    assert_same_bits(resume(whole, checkpoint), whole)
+    run = {"problem": whole.problem, "parameters": whole.parameters, "options": OPTIONS}
+    changed = {**run, **change(whole)}
+    with pytest.raises(ValueError, match="run: these samples are of another run: the pro") as told:
+        solve_snapshots(**changed, checkpoint=checkpoint)
+    assert "delete this one with Checkpoint.remove()" in str(told.value)
+    assert_same_bits(resume(whole, checkpoint), whole)
+    checkpoint.remove()
+    fresh = solve_snapshots(**changed, checkpoint=checkpoint, threads=1)
+    assert_same_bits(fresh, solve_snapshots(**changed, threads=1))
 
 
 def test_every_block_is_saved(whole: Snapshots, tmp_path: Path) -> None:

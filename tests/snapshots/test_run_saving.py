@@ -43,13 +43,15 @@ class FullDisk(Checkpoint):
         indices: Sequence[int],
         displacements: Iterable[FloatArray],
         reports: Sequence[SampleReport],
+        *,
+        run: str = "",
     ) -> list[FloatArray]:
         self.attempts += 1
         if self.left:
             self.left -= 1
             message = f"{self.folder}: {len(indices)} finished samples are not saved: no room"
             raise UnsavedSamplesError(message, indices, list(displacements), reports)
-        return super().save(indices, displacements, reports)
+        return super().save(indices, displacements, reports, run=run)
 
 
 @pytest.fixture(scope="module")
