@@ -59,7 +59,7 @@ def _inputs(record: dict[str, Any], folders: Sequence[Path]) -> list[str] | None
         if problem is None:
             return None
         words = ["build", "--problem", str(problem)]
-        content = json.loads(problem.read_text(encoding="utf-8"))
+        content = json.loads(problem.read_text(encoding="utf-8-sig"))
         named = content.get("mesh", content.get("surface"))
         if isinstance(named, str) and Path(named).name == record.get("mesh"):
             return words

@@ -26,6 +26,7 @@ from ..mesh import (
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from ..problem import (
     PosingProblem,
+    check_problem,
     problem_surface_file,
     problem_thickness,
     read_problem,
@@ -86,6 +87,7 @@ def problem_input(
         check_unfilled(filling, "a shell is not filled")
         return _shell_input(problem_file, mesh_file, shell)
     if mesh_file is not None and mesh_file.suffix.lower() in SURFACE_SUFFIXES:
+        check_problem(problem_file)
         file = open_surface(mesh_file).compact()
         tets = _tets(file, filling, tets_file)
         problem = read_problem(problem_file, mesh=tets)
@@ -125,7 +127,7 @@ def _tets(file: SurfaceFile, filling: SurfaceFilling, kept: Path) -> TetMesh:
 
 
 def _source(problem_file: Path, mesh_file: Path | None) -> dict[str, Any]:
-    content = json.loads(problem_file.read_text(encoding="utf-8"))
+    content = json.loads(problem_file.read_text(encoding="utf-8-sig"))
     mesh = Path(content["mesh"]) if mesh_file is None else mesh_file
     kept = {key: content[key] for key in ("up", "mirror") if key in content}
     return {"problem": problem_file.name, "mesh": mesh.name} | kept

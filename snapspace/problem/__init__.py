@@ -10,6 +10,7 @@ from .poses import Poses
 from .posing_problem import PosingProblem
 from .problem import Problem, is_quartic, solutions_beyond_tau
 from .problem_file import (
+    check_problem,
     problem_content,
     problem_surface_file,
     problem_thickness,
@@ -37,6 +38,7 @@ __all__ = [
     "SolverTraits",
     "affine_offset",
     "certain_range",
+    "check_problem",
     "euler_of_rotation",
     "handle_misses",
     "handles_in_tets",

@@ -21,10 +21,10 @@ from ..mesh import (
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from .body_entries import Thickness, body_content, shell_in, shell_thickness
 from .domain_entries import domain_content, handle_box
-from .handles import Handles
-from .json_entries import as_index, as_list, as_number, as_object, as_text, as_three, within
+from .entry_checks import check_entries, check_look, entry
+from .handle_entries import handles_of
+from .json_entries import as_number, as_object, as_text, within
 from .material_entries import material_content, material_from
-from .place_entries import Mask, in_places, listed
 from .posing_problem import PosingProblem
 
 _KEYS = {
@@ -38,8 +38,6 @@ _KEYS = {
     "domain",
     "handles",
 }
-AXES = ("x", "y", "z")
-MOST_VERTICES = 2**31 - 1
 
 
 def read_problem(
@@ -83,10 +81,7 @@ def read_problem(
     with within(path):
         if mesh is None:
             mesh = _mesh(path, content, repair=repair)
-        if "up" in content and content["up"] not in AXES:
-            raise ValueError(f"up must be one of {', '.join(AXES)}, got {content['up']!r:.60}")
-        if "mirror" in content:
-            _check_mirror(content["mirror"])
+        check_look(content)
         return _problem(content, mesh)
 
 
@@ -156,7 +151,7 @@ def problem_content(
 
 def _load(path: Path) -> dict[str, Any]:
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = json.loads(path.read_text(encoding="utf-8-sig"))
     except FileNotFoundError:
         raise ValueError(f"{path}: there is no such problem file") from None
     except (OSError, UnicodeDecodeError) as error:
@@ -178,18 +173,6 @@ def _check_kind(path: Path) -> None:
         )
 
 
-def _check_mirror(value: Any) -> None:
-    entries = as_object(value, "mirror", known={"normal", "point"})
-    normal = as_three(_entry(entries, "normal"), "mirror.normal")
-    MirrorPlane(normal, as_three(entries.get("point", [0, 0, 0]), "mirror.point"))
-
-
-def _entry(content: dict[str, Any], key: str) -> Any:
-    if key not in content:
-        raise ValueError(f"the entry '{key}' is missing")
-    return content[key]
-
-
 def problem_surface_file(path: str | Path) -> Path | None:
     """The surface that a problem file names in place of tets; None if it names tets.
 
@@ -199,6 +182,16 @@ def problem_surface_file(path: str | Path) -> Path | None:
     content = _load(path)
     with within(path):
         return _surface_in_place_of_tets(path, content)
+
+
+def check_problem(path: str | Path) -> None:
+    """ValueError for mistakes in a problem of a solid that do not depend on its mesh.
+
+    `read_problem` finds them, and others, once there is a mesh; making one may take minutes.
+    """
+    path = Path(path)
+    with within(path):
+        check_entries(_load(path))
 
 
 def problem_thickness(path: str | Path) -> Thickness | None:
@@ -225,42 +218,18 @@ def _mesh(path: Path, content: dict[str, Any], *, repair: bool) -> Body:
     if surface is not None and thickness is not None:
         return shell_in(open_surface(surface), thickness, surface)[0]
     if surface is not None:
+        check_entries(content)
         file = open_surface(surface).compact()
         with within(surface):
             return stuff_surface(file.vertices, file.faces, mend=True)
-    return read_tets(path.parent / as_text(_entry(content, "mesh"), "mesh"), repair=repair)
+    return read_tets(path.parent / as_text(entry(content, "mesh"), "mesh"), repair=repair)
 
 
 def _problem(content: dict[str, Any], mesh: Body) -> PosingProblem:
     return PosingProblem(
         mesh,
-        _handles(_entry(content, "handles"), mesh),
+        handles_of(entry(content, "handles"), mesh),
         material=material_from(content.get("material", {}), mesh),
         stiffness=as_number(content["stiffness"], "stiffness") if "stiffness" in content else None,
-        domain=handle_box(_entry(content, "domain"), content["handles"]),
+        domain=handle_box(entry(content, "domain"), content["handles"]),
     )
-
-
-def _handles(value: Any, mesh: Body) -> Handles:
-    known = {"name", "boxes", "spheres", "vertices", "painted", "domain"}
-    items = [
-        as_object(item, f"handles[{i}]", known=known)
-        for i, item in enumerate(as_list(value, "handles"))
-    ]
-    names = [
-        as_text(item.get("name", f"handle_{i}"), f"handles[{i}].name")
-        for i, item in enumerate(items)
-    ]
-    for item, name in zip(items, names, strict=True):
-        with within(f"handle '{name}'"):
-            for index in as_list(item.get("painted", []), "painted"):
-                as_index(index, "a painted vertex", below=MOST_VERTICES)
-    masks = [_mask(item, name, mesh) for item, name in zip(items, names, strict=True)]
-    return Handles(masks, names=names)
-
-
-def _mask(item: dict[str, Any], name: str, mesh: Body) -> Mask:
-    """The union of a handle's boxes, spheres and vertices."""
-    with within(f"handle '{name}'"):
-        vertices = listed(item, "vertices", "a vertex", count=len(mesh.vertices))
-        return in_places(item, mesh.vertices) | vertices

@@ -38,7 +38,7 @@ def read_timeline(path: str | os.PathLike[str]) -> Timeline:
         if file.stat().st_size > LARGEST:
             raise ValueError(f"a timeline has at most {LARGEST // 2**20} MB")
         try:
-            content = json.loads(file.read_text(encoding="utf-8"))
+            content = json.loads(file.read_text(encoding="utf-8-sig"))
         except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
             raise ValueError(f"this is no JSON: {error}") from None
         return timeline_of(content)

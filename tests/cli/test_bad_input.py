@@ -93,7 +93,7 @@ BUILDS: dict[str, tuple[Case, str]] = {
     "overlap": (lambda f: build(f, handles=overlapping()), "'left' and 'all' overlap"),
     "empty handle": (
         lambda f: build(f, handles=[*handles("a", "b"), {"name": "tail", "vertices": []}]),
-        "'tail' has no vertices",
+        "handle 'tail': it has no vertices of the mesh, which reaches from (0, 0, 0) to (4, 1, 1)",
     ),
     "dimension over samples": (
         lambda f: build(f, "--samples", 20, "--dimension", 30),

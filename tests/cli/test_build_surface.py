@@ -66,6 +66,55 @@ def test_a_surface_is_filled_shown_and_posed(run: Run, surface: Path, tmp_path: 
     assert one.surface.source is not None
 
 
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"domain": {"translation": 1}}, "domain: the entry 'angle_degrees' is missing"),
+        ({"handles": []}, "needs a fixed handle and at least one to move"),
+        (
+            {"handles": [{"name": "a", "boxes": [[[0, 0], [1, 1]]]}, {"name": "b"}]},
+            "handle 'a': box: a corner needs three numbers (or null), got [0.0, 0.0]",
+        ),
+        ({"handles": [{"name": "a"}, {"name": "a"}]}, "the name 'a' is used twice"),
+        ({"handles": [{"vertices": [-1]}, {}]}, "handle 'handle_0': a vertex index is -1"),
+        ({"material": {"model": "rubber"}}, "material: unknown material 'rubber'"),
+        ({"material": {"young": 1.0}}, "material: 'young' also needs the entry 'poisson'"),
+        ({"stiffness": "high"}, "stiffness must be a number"),
+        ({"up": "Z"}, "up must be one of x, y, z"),
+        ({"mirror": {"normal": [0, 0, 0]}}, "the normal is zero"),
+    ],
+)
+def test_mistakes_in_a_problem_are_found_before_a_surface_is_filled(
+    run: Run,
+    surface: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    changes: dict[str, object],
+    message: str,
+) -> None:
+    """Filling may take minutes."""
+
+    def fill(*_: object, **__: object) -> NoReturn:
+        raise AssertionError("it was filled")
+
+    monkeypatch.setattr("snapspace.filling.SurfaceFilling.fill", fill)
+    monkeypatch.setattr("snapspace.problem.problem_file.stuff_surface", fill)
+    named = problem(tmp_path, surface=surface.name, **changes)
+    assert message in run("build", "--problem", named, "-o", tmp_path / "m.snapspace").error
+    with pytest.raises(ValueError) as caught:
+        read_problem(named)
+    assert message in str(caught.value)
+
+
+def test_lists_with_one_value_per_tet_wait_for_the_tets(
+    run: Run, surface: Path, tmp_path: Path
+) -> None:
+    named = problem(tmp_path, surface=surface.name, material={"lam": [1.0, 2.0], "mu": 1.0})
+    result = run("build", "--problem", named, *LARGE_TETS, "-o", tmp_path / "m.snapspace")
+    assert result.code == 2 and "filled bar.obj" in result.err
+    assert "the material has moduli for 2 tets, but the mesh has" in result.err
+
+
 def test_python_fills_the_same_tets(surface: Path, tmp_path: Path) -> None:
     vertices, faces = read_surface(surface)
     mesh = read_problem(problem(tmp_path, surface=surface.name)).mesh

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import codecs
 import copy
 import json
 import re
@@ -85,6 +86,25 @@ def test_a_given_mesh_replaces_the_one_in_the_file(folder: Path) -> None:
     assert read_problem(write(folder, content), mesh=MESH).mesh is MESH
     del content["mesh"]
     assert read_problem(write(folder, content), mesh=MESH).mesh is MESH
+
+
+def test_an_empty_handle_says_where_the_mesh_is(folder: Path) -> None:
+    """Often the boxes are in another unit."""
+    content = copy.deepcopy(CONTENT)
+    content["handles"][1] = {"name": "head", "boxes": [[[900, 0, 0], [1000, 9, 9]]]}
+    text = (
+        "it has no vertices of the mesh, which reaches from (0, 0, 0) to (4, 1, 1); move or widen"
+    )
+    with pytest.raises(ValueError, match=re.escape(text)):
+        read_problem(write(folder, content))
+
+
+def test_a_byte_order_mark_is_skipped(folder: Path) -> None:
+    """Editors of Windows write it."""
+    path = write(folder, CONTENT)
+    plain = problem_content(read_problem(path))
+    path.write_bytes(codecs.BOM_UTF8 + path.read_bytes())
+    assert problem_content(read_problem(path)) == plain
 
 
 def test_a_handle_may_have_its_own_domain(folder: Path) -> None:
@@ -202,7 +222,7 @@ WRONG: list[tuple[tuple[str | int, ...], Any, str]] = [
     ((*HEAD, "vertices"), [20], "handle 'head': a vertex index is 20, but must be from 0 to 19"),
     ((*HEAD, "vertices"), [-1], "handle 'head': a vertex index is -1, but must be from 0 to 19"),
     ((*HEAD, "vertices"), [0], "'foot' and 'head' overlap in 1 vertices, the first is 0"),
-    (HEAD, {"name": "head", "spheres": [[[9, 9, 9], 1]]}, "'head' has no vertices; widen its"),
+    (HEAD, {"name": "head", "spheres": [[[9, 9, 9], 1]]}, "handle 'head': it has no vertices"),
 ]
 
 

@@ -1,0 +1,55 @@
+"""check_entries: mistakes in a problem file that can be found before there is a mesh."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..mesh import MirrorPlane, TetMesh
+from .domain_entries import handle_box
+from .handle_entries import check_handles
+from .json_entries import as_number, as_object, as_three
+from .material_entries import material_from
+
+AXES = ("x", "y", "z")
+
+
+def check_entries(content: dict[str, Any]) -> None:
+    """ValueError for what is wrong in a problem of a solid whatever its mesh is.
+
+    Filling a surface may take minutes: mistakes come first. Places without vertices, indices out of
+    range, and lists with one value per tet are checked once there is a mesh.
+    """
+    check_look(content)
+    check_handles(entry(content, "handles"))
+    handle_box(entry(content, "domain"), content["handles"])
+    if "stiffness" in content:
+        as_number(content["stiffness"], "stiffness")
+    _check_material(as_object(content.get("material", {}), "material"))
+
+
+def check_look(content: dict[str, Any]) -> None:
+    """ValueError for a wrong axis or plane."""
+    if "up" in content and content["up"] not in AXES:
+        raise ValueError(f"up must be one of {', '.join(AXES)}, got {content['up']!r:.60}")
+    if "mirror" not in content:
+        return
+    entries = as_object(content["mirror"], "mirror", known={"normal", "point"})
+    normal = as_three(entry(entries, "normal"), "mirror.normal")
+    MirrorPlane(normal, as_three(entries.get("point", [0, 0, 0]), "mirror.point"))
+
+
+def entry(content: dict[str, Any], key: str) -> Any:
+    """An entry that must be there; ValueError if it is not."""
+    if key not in content:
+        raise ValueError(f"the entry '{key}' is missing")
+    return content[key]
+
+
+def _check_material(content: dict[str, Any]) -> None:
+    """Without its regions, and as the material of a single tet."""
+    if any(isinstance(value, list) for key, value in content.items() if key != "regions"):
+        return
+    tet = TetMesh(np.vstack([np.zeros(3), np.eye(3)]), [[0, 1, 2, 3]])
+    material_from({key: value for key, value in content.items() if key != "regions"}, tet)
