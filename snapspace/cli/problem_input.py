@@ -85,9 +85,18 @@ def problem_input(
     shell = problem_thickness(problem_file) if thickness is None else thickness
     if shell is not None:
         check_unfilled(filling, "a shell is not filled")
+        if repair:
+            raise ValueError(
+                "--repair is for tets, but a shell has none; `snapspace check --fix` mends surfaces"
+            )
         return _shell_input(problem_file, mesh_file, shell)
     if mesh_file is not None and mesh_file.suffix.lower() in SURFACE_SUFFIXES:
         check_problem(problem_file)
+        if repair:
+            raise ValueError(
+                f"--repair is for tets, but {mesh_file} is a surface, which is mended when it is "
+                "filled; leave it out"
+            )
         file = open_surface(mesh_file).compact()
         tets = _tets(file, filling, tets_file)
         problem = read_problem(problem_file, mesh=tets)

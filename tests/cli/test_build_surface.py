@@ -106,6 +106,13 @@ def test_mistakes_in_a_problem_are_found_before_a_surface_is_filled(
     assert message in str(caught.value)
 
 
+def test_repair_is_refused_where_there_are_no_tets(run: Run, surface: Path, tmp_path: Path) -> None:
+    named = problem(tmp_path, surface=surface.name)
+    words = ("build", "--problem", named, "--repair", "-o", tmp_path / "m.snapspace")
+    assert f"--repair is for tets, but {surface} is a surface" in run(*words).error
+    assert "--repair is for tets, but a shell has none" in run(*words, "--shell", 0.1).error
+
+
 def test_lists_with_one_value_per_tet_wait_for_the_tets(
     run: Run, surface: Path, tmp_path: Path
 ) -> None:

@@ -202,3 +202,25 @@ def test_materials_are_written_beside_a_posed_surface(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["posed"], "nothing outside"
     again = open_surface(folder / "posed.obj")
     assert look_of(again).colors is not None and again.beside["cube.mtl"] == MTL
+
+
+@pytest.mark.parametrize(
+    ("line", "names"),
+    [
+        (b"mtllib red.mtl blue.MTL", ("red.mtl", "blue.MTL")),
+        (b"mtllib my skin.mtl", ("my skin.mtl",)),
+        (b"mtllib my skin.mtl\tblue.mtl", ("my skin.mtl", "blue.mtl")),
+        (b"mtllib skin", ("skin",)),
+        (b"mtllib a.mtl.bak", ("a.mtl.bak",)),
+    ],
+)
+def test_a_line_may_name_several_libraries(line: bytes, names: tuple[str, ...]) -> None:
+    """Their names may have spaces, which also separate them."""
+    red, blue = b"newmtl red\nKd 1 0 0\n", b"newmtl blue\nKd 0 0 1\n"
+    data = obj("").replace(b"mtllib cube.mtl", line)
+    file = SurfaceFile("cube.obj", data, beside=dict(zip(names, (red, blue), strict=False)))
+    assert file.refers_to == names
+    look = look_of(file)
+    found = {material.name: material.color for material in look.materials}
+    assert found["red"] == (1.0, 0.0, 0.0)
+    assert found["blue"] == ((0.0, 0.0, 1.0) if len(names) > 1 else (1.0, 1.0, 1.0))

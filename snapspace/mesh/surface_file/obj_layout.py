@@ -14,6 +14,7 @@ from .slots import TextSlots
 # Spaces may include a line that goes on below.
 _GAP = rb"(?:[ \t\f\v]|\\\r?\n)+"
 _LINE = rb"(?:(?<=[\r\n])|\A)(?:[ \t\f\v]|\\\r?\n)*"
+_MTL = re.compile(r"\S.*?\.mtl(?=\s|$)", re.IGNORECASE)
 _LIBRARY = re.compile(rb"mtllib" + _GAP + rb"([^\r\n#]+)")
 
 
@@ -25,9 +26,10 @@ def obj_layout(data: bytes, content: FileContent) -> Layout:
     if polygons.normals is not None and (polygons.normals >= 0).any():
         directions = (Directions(_vectors(data, b"vn"), polygons.normals),)
     libraries = [
-        match[1].decode("utf-8", "replace").strip()
+        name
         for match in _LIBRARY.finditer(data)
         if _begins_line(data, match.start())
+        for name in _names(match[1].decode("utf-8", "replace").strip())
     ]
     return Layout(
         data=data,
@@ -37,6 +39,11 @@ def obj_layout(data: bytes, content: FileContent) -> Layout:
         directions=directions,
         refers_to=tuple(dict.fromkeys(libraries)),
     )
+
+
+def _names(text: str) -> list[str]:
+    """The names on a line, which may have spaces inside if they end in .mtl."""
+    return _MTL.findall(text) if _MTL.sub("", text).strip() == "" else [text]
 
 
 def _begins_line(data: bytes, place: int) -> bool:
