@@ -164,7 +164,7 @@ def _solved(
         other_run = folder.name.startswith(checkpoint.folder.name.rpartition("-")[0] + "-")
         if other_run and folder != checkpoint.folder:
             notice(f"notice: {folder} holds samples of other options; delete it if not needed")
-    with sample_progress("snapshots", done=found, total=total) as progress:
+    with sample_progress("snapshots", done=found, total=total, training=True) as progress:
         return recipe.samples.solve(
             problem,
             recipe.solver,

@@ -31,11 +31,15 @@ def step_progress(
 
 @contextmanager
 def sample_progress(
-    label: str, *, done: int = 0, total: int
+    label: str, *, done: int = 0, total: int, training: bool = False
 ) -> Iterator[Callable[[SolveProgress], None]]:
-    """Yields a `progress` callable for `solve_snapshots`; `done` samples exist already."""
+    """Yields a `progress` callable for `solve_snapshots`; `done` samples exist already.
+
+    With `training` a model will be made of the samples: it also shows how well those before
+    represent the newest ones.
+    """
     with _shown(label, done, total, "samples") as show:
-        yield lambda state: show(state.done, _held_out(state))
+        yield lambda state: show(state.done, _held_out(state) if training else "")
 
 
 def _held_out(state: SolveProgress) -> str:

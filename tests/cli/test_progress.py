@@ -34,13 +34,22 @@ def test_samples_that_were_finished_before_are_not_progress(
 
 
 def test_the_error_of_held_out_samples_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
-    with sample_progress("snapshots", total=40) as progress:
+    with sample_progress("snapshots", total=40, training=True) as progress:
         progress(SolveProgress(16, 40, 1.0, 16))
         progress(SolveProgress(32, 40, 2.0, 32, held_out_error=0.01234))
     before, after = capsys.readouterr().err.splitlines()
     assert "unseen" not in before
     assert after.startswith("snapspace: snapshots: 32 of 40 samples, ")
     assert after.endswith(" left, unseen samples within 1.2 %")
+
+
+def test_solutions_that_judge_a_model_have_no_such_error(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """It would be that of a model of these few solutions, not of the model that is validated."""
+    with sample_progress("full solutions", total=4) as progress:
+        progress(SolveProgress(4, 4, 1.0, 4, held_out_error=0.19))
+    assert "unseen" not in capsys.readouterr().err
 
 
 def test_steps_have_a_unit(capsys: pytest.CaptureFixture[str]) -> None:

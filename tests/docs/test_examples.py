@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import runpy
 from pathlib import Path
 
@@ -31,6 +32,17 @@ def test_interpolation_keeps_the_volume_that_the_linear_blend_loses(
     assert len(faces) == len(mesh.surface)
     assert session.weights == pytest.approx([0.5, 0.5])
     np.testing.assert_allclose(vertices, session.vertices[mesh.surface_vertices], atol=1e-6)
+
+
+def test_the_timeline_of_the_tutorial_is_one(tmp_path: Path) -> None:
+    text = (ROOT / "docs" / "tutorial-artist.md").read_text(encoding="utf-8")
+    (example,) = re.findall(r"```json\n(.*?)```", text, re.DOTALL)
+    file = tmp_path / "wave.json"
+    file.write_text(example, encoding="utf-8")
+    timeline = ss.read_timeline(file)
+    assert [key.time for key in timeline.keys] == [0.0, 0.5, 1.0]
+    np.testing.assert_allclose(timeline.keys[1].state["head"][0], [0.0, 0.0, np.pi / 6])
+    np.testing.assert_allclose(timeline.keys[2].state["head"], np.zeros((2, 3)))  # at rest again
 
 
 def test_scripts_make_all_pictures_of_the_docs(monkeypatch: pytest.MonkeyPatch) -> None:
