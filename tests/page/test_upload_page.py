@@ -68,17 +68,20 @@ def test_a_cancelled_upload_leaves_what_was_there(
         page.page.locator("#message button", has_text="Cancel").click()
         page.page.unroute("**/mesh?*")
 
+    def wait_until_gone(page: Page) -> None:
+        page.page.locator("#message").wait_for(state="hidden")
+
     page = bar_with_ends(opened, bar_server)
     chosen = handles(page)
     cancel_upload(page, lambda: drop_bad_file(page))
-    assert page.page.locator("#message").is_hidden()
+    wait_until_gone(page)
     assert page.run("snapspace.kind") == "choosing" and handles(page) == chosen
 
     widen(page)
     compute(page, most_samples=20_000, percent=0.01)
     page.wait("snapspace.kind === 'posing'")
     cancel_upload(page, lambda: drop_bad_file(page))
-    assert page.page.locator("#message").is_hidden()
+    wait_until_gone(page)
     first = page.run("snapspace.session.model.dimension")
     page.wait(f"snapspace.session.model.dimension > {first}")  # the computation goes on
     cancel(page)
@@ -87,7 +90,7 @@ def test_a_cancelled_upload_leaves_what_was_there(
     alone = opened(empty)
     file = bar_folder / "bar.mesh"
     cancel_upload(alone, lambda: alone.page.set_input_files("#message input", file))
-    assert "Drop a mesh here" in alone.text("#message")
+    wait_for_text(alone, "#message", "Drop a mesh here")
 
 
 def test_a_bad_file_that_is_dropped_leaves_handles_and_model(
