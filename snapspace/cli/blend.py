@@ -116,7 +116,8 @@ def blend(
         raise ValueError("--format is for --path; the extension of -o sets the format of one file")
     if frames_per_second is not None and frames is None:
         raise ValueError("--fps is for a film of --path")
-    if linear and is_film(output):
+    film = frames is not None and is_film(output)
+    if linear and film:
         raise ValueError("--linear writes further files; give a folder in place of a film")
     if even is not None and frames is None:
         raise ValueError("--even is for --path; --weights has one shape")
@@ -137,12 +138,12 @@ def blend(
         shapes, jumps = _path_shapes(model, session, frames, even or "shape", linear=linear)
     _check(model, shapes)
     begin = time.perf_counter()
-    if output is not None and is_film(output):
-        film = [shape.vertices for shape in shapes]
+    if output is not None and film:
+        moved = [shape.vertices for shape in shapes]
         rate = frames_per_second or 30.0
         write = write_path if output.suffix.lower() == ".glb" else write_animation
         with spinner("writing the frames"):
-            written = write(output, model, film, frames_per_second=rate, up=up or model.up)
+            written = write(output, model, moved, frames_per_second=rate, up=up or model.up)
     else:
         written = _write(model, shapes, output, kind=kind, folder=frames is not None, up=up)
     if png is not None:

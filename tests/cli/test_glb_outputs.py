@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from snapspace import Key, PosingModel, Timeline, load, write_timeline
+from snapspace import InterpolationModel, Key, PosingModel, Timeline, load, write_timeline
 from snapspace.mesh import read_surface
 
 from ..gltf.glb_content import GlbContent
@@ -101,3 +101,19 @@ def test_a_new_file_says_what_it_loses_of_gltf(
     assert Path(frames[0]).suffix == ".glb", "the format of --surface"
     source = load(own_model).surface.source
     assert source is not None and source.suffix == ".obj"
+
+
+def test_a_blend_is_one_shape_and_a_glb_of_the_user_stays_theirs(
+    run: Run, blending_model: InterpolationModel, tmp_path: Path
+) -> None:
+    path = blending_model.save(tmp_path / "blends.snapspace")
+    count = len(blending_model.problem.poses)
+    first = ("blend", path, "--weights", ",".join(["1", *["0"] * (count - 1)]))
+    mine, moved = tmp_path / "mine.glb", tmp_path / "moved.glb"
+    assert run(*first, "-o", mine, "--linear", "--up", "y").code == 0
+    assert "targets" not in GlbContent(mine).primitive, "it is no film"
+    assert (tmp_path / "mine-linear.glb").exists()
+    half = ("blend", path, "--weights", ",".join(["0.5", "0.5", *["0"] * (count - 2)]))
+    assert run(*half, "--surface", mine, "-o", moved).code == 0
+    assert GlbContent(moved).json["nodes"] == GlbContent(mine).json["nodes"], "the user's own file"
+    assert "targets" not in GlbContent(moved).primitive
