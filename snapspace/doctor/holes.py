@@ -95,10 +95,13 @@ def _loop(directed: NDArray[np.intp], used: NDArray[np.intp]) -> NDArray[np.intp
 
 
 def is_sheet(vertices: FloatArray, faces: IndexArray) -> bool:
-    """Whether a surface has a hole so wide that it may be open on purpose, as cloth is."""
+    """Whether a surface, once it is cleaned, may be open on purpose, as cloth is."""
     clean = cleaned(vertices, faces).faces
-    if not len(clean):
-        return False
-    diagonal = float(np.linalg.norm(np.ptp(vertices[clean].reshape(-1, 3), axis=0)))
-    holes = holes_of(vertices, edges_of(clean))
+    return len(clean) > 0 and has_wide_hole(vertices, clean)
+
+
+def has_wide_hole(vertices: FloatArray, faces: IndexArray) -> bool:
+    """Whether a surface has a hole that is wider than a fault."""
+    diagonal = float(np.linalg.norm(np.ptp(vertices[faces].reshape(-1, 3), axis=0)))
+    holes = holes_of(vertices, edges_of(faces))
     return any(hole.diameter > WIDEST_FAULT * diagonal for hole in holes)

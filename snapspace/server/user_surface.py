@@ -9,20 +9,16 @@ from pathlib import Path
 
 import numpy as np
 
-from ..doctor.holes import holes_of
+from ..doctor.holes import has_wide_hole
 from ..filling import SurfaceFilling
 from ..input_error import located
 from ..material import Material
 from ..mesh import Body as Mesh
 from ..mesh import EmbeddedSurface, MirrorPlane, ShellMesh, SurfaceFile, embed_file, shell_of_file
-from ..mesh.edges import edges_of
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from ..mesh.validation import check_points
 from .body import Body
 
-#: A surface with a wider hole is open, as a share of the diagonal. Smaller holes are faults, which
-#: filling closes whatever their shape.
-WIDEST_FAULT = 0.05
 #: Usual thickness of a shell, as a share of the diagonal: thinner ones bend so easily that a linear
 #: subspace stretches what should only bend, and thicker ones bend like solids (docs/shells.md).
 USUAL_THICKNESS = 0.02
@@ -95,11 +91,8 @@ class UserSurface:
 
 
 def is_open(mesh: Mesh) -> bool:
-    """Whether a body is a shell with a hole wider than 5 % of its diagonal."""
-    if not isinstance(mesh, ShellMesh):
-        return False
-    holes = holes_of(mesh.vertices, edges_of(mesh.triangles))
-    return any(hole.diameter > WIDEST_FAULT * mesh.diagonal for hole in holes)
+    """Whether a body is a shell with a hole that is wider than a fault, which filling closes."""
+    return isinstance(mesh, ShellMesh) and has_wide_hole(mesh.vertices, mesh.triangles)
 
 
 def usual_thickness(diagonal: float) -> float:
