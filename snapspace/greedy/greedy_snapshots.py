@@ -150,7 +150,7 @@ def _check(
         if value < 1:
             raise ValueError(f"greedy_snapshots: {name} is {value}, but must be at least 1")
     if known is not None:
-        known.check_known(problem, "greedy_snapshots")
+        known.check_of(problem, "greedy_snapshots")
 
 
 def _sizes(count: int, batch: int, candidates: int, *, chosen: bool) -> list[int]:

@@ -127,8 +127,8 @@ def reduce(
     ValueError
         If the subspace belongs to another mesh, is not attached to the problem's tau or has a basis
         that is not M-orthonormal, the surface belongs to another mesh, the energy is not possible,
-        a cubature has too few converged snapshots, or `tets` is given without a cubature or is not
-        between 1 and the number of tets of the mesh.
+        snapshots are of another problem, a cubature has too few converged ones, or `tets` is given
+        without a cubature or is not between 1 and the number of tets of the mesh.
 
     Warns
     -----
@@ -144,6 +144,8 @@ def reduce(
         raise ValueError(f"reduce: tets is for energy='cubature'; '{kind}' takes all tets")
     if kind == "exact":
         warn_of_long_quartics(problem, subspace.dimension)
+    if snapshots is not None:
+        snapshots.check_of(problem, "reduce")
     used = snapshots
     if snapshots is not None and not include_unconverged and not snapshots.usable.all():
         used = snapshots.select(snapshots.usable)

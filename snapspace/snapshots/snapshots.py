@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..displacements import DisplacementRows, SnapshotGram, chosen_rows
 from ..mesh import TetMesh, shape_rows
-from ..problem import Problem
+from ..problem import PosingProblem, Problem
 
 FloatArray = NDArray[np.float64]
 
@@ -184,13 +184,13 @@ class Snapshots:
             [*self.reports, *others.reports],
         )
 
-    def check_known(self, problem: Problem, who: str) -> None:
+    def check_of(self, problem: Problem, who: str) -> None:
         """Raises a ValueError in the name of `who` unless these are snapshots of the problem."""
         if self.problem.fingerprint != problem.fingerprint:
-            raise ValueError(
-                f"{who}: the known snapshots are of another problem; `carry_over` makes them "
-                "snapshots of this one"
-            )
+            cure = "solve samples of this one"
+            if isinstance(problem, PosingProblem):
+                cure = "`carry_over` makes them snapshots of this one"
+            raise ValueError(f"{who}: the snapshots are of another problem; {cure}")
 
     def summary(self) -> str:
         """One line: how many converged, the status of others, iterations, inverted tets of solids.

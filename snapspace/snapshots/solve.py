@@ -85,7 +85,7 @@ def solve_snapshots(
         raise wrong_type("solve_snapshots", "options", options, cure)
     samples = _checked(problem, parameters)
     if known is not None:
-        known.check_known(problem, "solve_snapshots")
+        known.check_of(problem, "solve_snapshots")
     wanted = (len(samples), problem.base.size)
     if predictions is not None and predictions.displacements.shape != wanted:
         raise ValueError(

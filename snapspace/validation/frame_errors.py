@@ -23,7 +23,7 @@ def unseen_errors(model: ReducedModel, reference: Snapshots) -> FloatArray:
     ValueError
         If the reference is of another problem.
     """
-    reference.check_known(model.problem, "unseen_errors")
+    reference.check_of(model.problem, "unseen_errors")
     errors: FloatArray = compared(model, reference)[0][:, 0]
     return errors
 

@@ -136,6 +136,6 @@ def test_known_solutions_are_the_same_for_threads_executors_and_interruptions(
 def test_solutions_of_another_problem_are_refused(known: Snapshots) -> None:
     """Their shapes may have another size, or be far from the solutions."""
     other = posing_bar(stiffness=999.0)
-    message = "solve_snapshots: the known snapshots are of another problem; `carry_over` makes them"
+    message = "solve_snapshots: the snapshots are of another problem; `carry_over` makes them"
     with pytest.raises(ValueError, match=re.escape(message)):
         solve_snapshots(other, parameters(other, 2), known=known)
