@@ -63,7 +63,7 @@ def test_it_is_dragged_while_it_improves_and_saved(
     chosen = handles(page)
     press(page, "Range")
     page.page.get_by_label("Turn, plus or minus").first.fill("30")
-    compute(page, most_samples=200, percent=0.01)
+    compute(page, most_samples=140, percent=0.01)
     page.wait("snapspace.kind === 'posing'")
     wait_for_text(page, "#panel", "Ready to pose, and improving")
     first = page.run(RECORDING)  # before the drag, in which better models may come
