@@ -22,7 +22,7 @@ from .step import Step
 ModelOf = TypeVar("ModelOf", bound=Model)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class AccurateModel(Generic[ModelOf]):
     """A model of motions or blends, and how it was found.
 
@@ -170,13 +170,13 @@ def accurate_model(
     Raises
     ------
     ValueError
-        For something else than a problem, a target or budget that is not positive, fewer than 20
-        samples, or no usable ones. Also for a `start` of another mesh, without training shapes, or
-        with other changes than handles.
+        For something else than a problem, a target that is not between 0 and 1, a budget that is
+        not positive, fewer than 20 samples, or no usable ones. Also for a `start` of another mesh,
+        without training shapes, or with other changes than handles.
     Interrupted
         On Ctrl-C, after the finished samples have been saved.
     """
-    check_problem(problem)
+    check_problem(problem, "accurate_model")
     search = ModelSearch(
         problem,
         SearchOptions(

@@ -4,25 +4,29 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arguments import is_number
 from ..problem import InterpolationProblem, PosingProblem
 
 #: Fewest samples, and fewest held-out ones among them.
 FEWEST_SAMPLES, FEWEST_HELD_OUT = 20, 4
 
 
-def check_problem(problem: object) -> None:
-    """Raises ValueError for anything but a problem, such as a mesh."""
+def check_problem(problem: object, who: str) -> None:
+    """Raises a ValueError in the name of `who` for anything but a problem, such as a mesh."""
     if not isinstance(problem, (PosingProblem, InterpolationProblem)):
         raise ValueError(
-            f"accurate_model: got a {type(problem).__name__}, but needs a problem, such as "
+            f"{who}: got a {type(problem).__name__}, but needs a problem, such as "
             "PosingProblem(mesh, handles, domain=box) or InterpolationProblem(poses)"
         )
 
 
 def check_target(target_error: float) -> None:
-    """Raises ValueError unless a target error is positive and finite."""
-    if not (np.isfinite(target_error) and target_error > 0):
-        raise ValueError(f"the target error is {target_error}, but it must be positive and finite")
+    """Raises ValueError unless a target error is a number between 0 and 1."""
+    if not (is_number(target_error) and 0 < target_error < 1):
+        raise ValueError(
+            f"the target error is {target_error!r}, but it must be between 0 and 1: it is relative "
+            "to the displacement"
+        )
 
 
 def check_budget(budget: float | None) -> None:

@@ -13,6 +13,7 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import PosingModel
 from ..snapshots import Progress, Snapshots, SolverOptions
+from .checks import check_problem
 from .model_search import Begins, Model, ModelSearch
 from .search_options import SearchOptions
 from .solving import Solving
@@ -20,7 +21,7 @@ from .step import Step
 from .trial import Trial
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Growth:
     """One of the models of `growing_models`.
 
@@ -85,6 +86,7 @@ def growing_models(
     ValueError
         As for `accurate_model`.
     """
+    check_problem(problem, "growing_models")
     search = ModelSearch(
         problem,
         SearchOptions(

@@ -88,9 +88,10 @@ def test_an_interrupted_run_resumes_to_the_same_model(
     assert max(solved) < len(usual.snapshots), "some were in the checkpoint"
 
 
-@pytest.mark.parametrize("target", [0.0, -1.0, np.nan, np.inf])
-def test_a_target_must_be_positive(problem: InterpolationProblem, target: float) -> None:
-    with pytest.raises(ValueError, match="must be positive and finite"):
+@pytest.mark.parametrize("target", [0.0, -1.0, np.nan, np.inf, 1.0, 5, "5 %"])
+def test_a_target_is_a_share(problem: InterpolationProblem, target: float) -> None:
+    """As on the command line: every model would meet 500 %."""
+    with pytest.raises(ValueError, match=f"target error is {target!r}, but it must be between 0"):
         accurate_model(problem, target_error=target)
 
 

@@ -112,6 +112,11 @@ def test_a_budget_ends_it_with_the_best_so_far(
     assert ample.steps == rough_motions.steps
 
 
+def test_a_model_in_place_of_a_problem_is_refused_with_the_cure(growths: list[Growth]) -> None:
+    with pytest.raises(ValueError, match=r"growing_models: got a PosingModel, but .* PosingProbl"):
+        next(growing_models(growths[0].model))  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize("budget", [0.0, -1.0, np.nan, np.inf])
 def test_a_budget_must_be_positive(problem: PosingProblem, budget: float) -> None:
     with pytest.raises(ValueError, match="must be positive and finite"):

@@ -155,6 +155,7 @@ ALLOWED: dict[str, set[str]] = {
         "timeline",
     },
     "accurate": {
+        "arguments",
         "cubature",
         "calibration",
         "displacements",

@@ -101,7 +101,7 @@ def test_a_budget_ends_it_early_and_says_so(run: Run, tmp_path: Path) -> None:
     [
         (("--target-error", 0), "'--target-error': 0.0 is not in the range 0<x<1"),
         (("--target-error", 2), "'--target-error': 2.0 is not in the range 0<x<1"),
-        (("--target-error", "nan"), "must be positive and finite"),
+        (("--target-error", "nan"), "target error is nan, but it must be between 0 and 1"),
         (
             ("--target-error", 0.01, "--samples", 24),
             "--target-error chooses what --samples decides",

@@ -50,6 +50,6 @@ def test_a_target_error_must_be_positive(run: Run, tmp_path: Path, share: str) -
     words = ("--target-error", share, "-o", tmp_path / "m.snapspace")
     result = run("interpolate", *write_tet_poses(tmp_path), *words)
     assert result.code == 2
-    wanted = "must be positive and finite" if share == "nan" else "is not in the range 0<x<1"
+    wanted = "must be between 0 and 1" if share == "nan" else "is not in the range 0<x<1"
     assert wanted in result.err
     assert not (tmp_path / "m.snapspace").exists()

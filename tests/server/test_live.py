@@ -191,7 +191,7 @@ def test_a_new_computation_replaces_the_running_one(page: Page) -> None:
 def test_errors_are_answers(page: Page) -> None:
     page.workspace()
     page.send("compute", request=7, **{**SHORT, "target_error": 0.0})
-    assert "target error is 0.0, but it must be positive" in page.take("failed")["message"]
+    assert "target error is 0.0, but it must be between 0 and 1" in page.take("failed")["message"]
     page.send("compute", request=7, **{**SHORT, "most_samples": 19})
     assert "most_samples is 19, but at least 20" in page.take("failed")["message"]
     page.send("compute", request=7, **{**SHORT, "most_samples": 20_001})
