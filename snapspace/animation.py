@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .arguments import wrong_type
 from .disk import atomic_file
 from .gltf import fitted_targets, still_shape, write_glb
 from .mesh import SURFACE_OUTPUTS, TET_OUTPUTS, EmbeddedSurface, solid_of, write_surface, write_tets
-from .reduction import ReducedModel
+from .reduction import ReducedModel, check_model
 
 #: Formats that ParaView reads, with a list of the files beside them.
 _SERIES = (".vtu", ".vtk")
+_GLB_OPTIONS = ("frames_per_second", "name", "up", "colors", "targets")
 
 
 def write_animation(
@@ -63,40 +63,36 @@ def write_animation(
     Raises
     ------
     ValueError
-        For something else than a model, an unknown kind, a folder that cannot be created, picture
-        options without a film, and as for `save_film`.
+        For something else than a model, an unknown kind or option, a folder that cannot be created,
+        and as for `save_film`.
 
     Examples
     --------
     >>> frames = session.animate([{"head": ((0, 0, 0.6), (0, 0, 0.2))}], frames=48)
     >>> write_animation("nod.gif", session.model, (session.vertices for _ in frames))
     """
-    if not isinstance(model, ReducedModel):
-        cure = "give session.model" if hasattr(model, "model") else "give path, model, shapes"
-        raise wrong_type("write_animation", "model", model, cure)
+    check_model(model, "write_animation", "give path, model, shapes")
     target = Path(path)
     if target.suffix.lower() in (".gif", ".mp4"):
         from .pictures import save_film
 
+        _check_options(target, picture, save_film.__kwdefaults__ or ())
         surface = model.surface
         seen = [surface.vertices(_checked(shape, model)) for shape in shapes]
         rate = frames_per_second
         picture.setdefault("up", model.up)
         return [save_film(target, seen, surface.faces, frames_per_second=rate, **picture)]
     if target.suffix.lower() == ".glb":
+        _check_options(target, picture, _GLB_OPTIONS)
         count = picture.pop("targets", 8)
         placed = [_checked(shape, model) for shape in shapes]
         morphs = fitted_targets(model, placed, count=count)
         rate = frames_per_second
         return [write_glb(target, model, morphs, frames_per_second=rate, **picture)]
     suffix = shape_suffix(model, kind)
-    up = picture.pop("up", None) if suffix == ".glb" else None
-    if picture:
-        raise ValueError(
-            f"write_animation: {', '.join(picture)} applies to films only, but {target} is a "
-            "folder; give a name that ends in .gif, .mp4 or .glb"
-        )
-    return _written(target, model, shapes, suffix, frames_per_second, up=up)
+    known = ("kind", "frames_per_second", *(("up",) if suffix == ".glb" else ()))
+    _check_options(target, picture, known, "; names that end in .gif, .mp4 or .glb take others")
+    return _written(target, model, shapes, suffix, frames_per_second, up=picture.get("up"))
 
 
 def write_shape(
@@ -131,6 +127,17 @@ def shape_suffix(model: ReducedModel, kind: str | None) -> str:
         return f".{kind}"
     source = model.surface.source
     return ".obj" if source is None else source.suffix
+
+
+def _check_options(
+    target: Path, given: Iterable[str], known: Iterable[str], others: str = ""
+) -> None:
+    unknown = ", ".join(name for name in given if name not in known)
+    if unknown:
+        raise ValueError(
+            f"write_animation: unknown option {unknown} for {target}; known are {', '.join(known)}"
+            f"{others}"
+        )
 
 
 def _written(

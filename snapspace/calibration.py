@@ -19,11 +19,17 @@ from .certificate import (
     scalar_diagonal,
 )
 from .mesh import mass_norm
-from .reduction import InterpolationModel, PosingModel, solved_coordinates, solved_sessions
+from .reduction import (
+    InterpolationModel,
+    PosingModel,
+    check_model,
+    solved_coordinates,
+    solved_sessions,
+)
 from .sampling import Domain
 from .session.certify import movement
 from .snapshots import Progress, Snapshots, solve_snapshots
-from .validation import check_model, check_reference, reference_options
+from .validation import check_reference, reference_options
 
 FloatArray = NDArray[np.float64]
 Model = TypeVar("Model", bound=PosingModel | InterpolationModel)

@@ -81,7 +81,11 @@ def test_an_mp4_is_read_by_another_program(
     ("name", "options", "message"),
     [
         ("nod", {"kind": "gltf"}, "unknown kind 'gltf'; known are obj"),
-        ("nod", {"size": SIZE}, "size applies to films only, but .* is a folder"),
+        (
+            "nod",
+            {"size": SIZE},
+            "unknown option size for .*nod; known are kind, frames_per_second; names that",
+        ),
         ("nod.avi", {}, r"neither a film \(.gif, .mp4 or .glb\) nor a folder"),
         ("nod.mp4", {"size": (95, 64)}, "95 x 64, but .mp4 takes even numbers"),
         ("nod.gif", {"frames_per_second": 0.0}, "frames_per_second is 0.0"),

@@ -77,7 +77,7 @@ WRONG: dict[str, tuple[Call, str]] = {
     ),
     "a tolerance that all starts meet": (
         lambda m, s: ss.SolverOptions(tolerance=2),
-        "tolerance is 2, but it must be below 1: it is a share of the objective",
+        "SolverOptions: tolerance is 2, but it must be below 1: it is a share of the objective",
     ),
     "shapes as snapshots": (
         lambda m, s: ss.snapshot_pca(s.shapes, dimension=3),
@@ -110,6 +110,46 @@ WRONG: dict[str, tuple[Call, str]] = {
     "a session to film": (
         lambda m, s: ss.write_animation("nod.gif", m.session(), []),
         "write_animation: model is of type PosingSession; give session.model",
+    ),
+    "another name for a film's frame rate": (
+        lambda m, s: ss.write_animation("nod.gif", m, [], fps=10),
+        "write_animation: unknown option fps for nod.gif; known are frames_per_second, size, ",
+    ),
+    "a film's option for morph targets": (
+        lambda m, s: ss.write_animation("nod.glb", m, [], size=(4, 4)),
+        "write_animation: unknown option size for nod.glb; known are frames_per_second, name, up",
+    ),
+    "a session as a page": (
+        lambda m, s: ss.export_html(m.session(), "bar.html"),
+        "export_html: model is of type PosingSession; give session.model",
+    ),
+    "the path before the model": (
+        lambda m, s: ss.export_packed("bar.snapspace", m),  # type: ignore[arg-type]
+        "export_packed: model is of type str; give model, path",
+    ),
+    "a number to load": (
+        lambda m, s: ss.load(3),  # type: ignore[arg-type]
+        "load: path is of type int; give the name of a .snapspace file",
+    ),
+    "the mass of arrays": (
+        lambda m, s: ss.mass_matrix((s.problem.mesh.vertices, s.problem.mesh.tets)),  # type: ignore[arg-type]
+        "mass_matrix: mesh is of type tuple; give a TetMesh or ShellMesh",
+    ),
+    "the material before the mesh": (
+        lambda m, s: ss.ElasticEnergy(ss.StVK(), s.problem.mesh),  # type: ignore[arg-type]
+        "ElasticEnergy: mesh is of type StVK; give a TetMesh or ShellMesh",
+    ),
+    "a number as a timeline": (
+        lambda m, s: ss.write_timeline("nod.json", 3),  # type: ignore[arg-type]
+        "write_timeline: timeline is of type int; give path, timeline, such as Timeline(",
+    ),
+    "a session's tolerance in words": (
+        lambda m, s: m.session(tolerance="a"),
+        "Session: tolerance is of type str; give a positive number",
+    ),
+    "half an iteration of a session": (
+        lambda m, s: m.session(max_iterations=1.5),
+        "Session: max_iterations is of type float; give a whole number",
     ),
 }
 

@@ -10,7 +10,7 @@ from scipy.sparse import bsr_array, csr_array
 
 from .. import _core
 from ..material import Material, checked_material
-from ..mesh import Body
+from ..mesh import Body, check_body
 from .shell_material import Bending, element_material, is_of_stars
 from .vertex_stars import VertexStars
 
@@ -39,8 +39,8 @@ class ElasticEnergy:
     Raises
     ------
     ValueError
-        If the material is not one of `MATERIALS`, has moduli for another number of tets or
-        triangles, or has no form for shells; for a `bending` of `ARAP`.
+        If the mesh is none, or the material is not one of `MATERIALS`, has moduli for another
+        number of tets or triangles, or has no form for shells; for a `bending` of `ARAP`.
 
     Notes
     -----
@@ -58,6 +58,7 @@ class ElasticEnergy:
     """
 
     def __init__(self, mesh: Body, material: Material, *, bending: Bending = "angle") -> None:
+        check_body(mesh, "ElasticEnergy")
         self.mesh = mesh
         self.material = checked_material(material, len(mesh.cells), "ElasticEnergy")
         self.element_material = element_material(

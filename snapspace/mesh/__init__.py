@@ -1,6 +1,7 @@
 """Meshes of solids and shells: the mesh itself, its mass, repair, reading and writing."""
 
 from .body import Body
+from .check_body import check_body
 from .embed_surface import embed_file, embed_surface
 from .embedded_surface import EmbeddedSurface, boundary_surface
 from .file_kind import file_kind
@@ -44,6 +45,7 @@ __all__ = [
     "apply_mass",
     "boundary_faces",
     "boundary_surface",
+    "check_body",
     "compact_surface",
     "dihedral_angles",
     "embed_file",

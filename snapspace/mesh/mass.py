@@ -14,6 +14,7 @@ from scipy.sparse import coo_array, csr_array, diags_array
 
 from .arrays import FloatArray, IndexArray
 from .body import Body
+from .check_body import check_body
 from .shape_rows import shape_or_rows, shape_rows
 
 
@@ -33,7 +34,13 @@ def mass_matrix(mesh: Body, *, lumped: bool = False) -> csr_array:
         volume / 20 * (1 + delta_ij) per tet and volume / 12 * (1 + delta_ij) per triangle
         (Zienkiewicz & Taylor, The Finite Element Method), so that x^T M y is the exact integral of
         the product of two piecewise linear functions.
+
+    Raises
+    ------
+    ValueError
+        For something else than a mesh.
     """
+    check_body(mesh, "mass_matrix")
     return mass_of_cells(mesh.cells, mesh.volumes, lumped=lumped)
 
 

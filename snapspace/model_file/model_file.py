@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
 from dataclasses import replace
 from pathlib import Path
 
+from ..arguments import wrong_type
 from ..input_error import one_line
 from ..mesh import ShellMesh, file_kind
 from ..reduction import InterpolationModel, PosingModel, ReducedModel
@@ -99,11 +101,13 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
     Raises
     ------
     ValueError
-        If the file is missing, truncated, altered (checksum), of another kind, such as a mesh or a
-        packed model, of a newer version
-        or of a material that is not known, or if an array is missing, has the wrong type or size or
-        a number that is not finite. The message names the file and the cure.
+        For something else than a path. If the file is missing, truncated, altered (checksum), of
+        another kind, such as a mesh or a packed model, of a newer version or of a material that is
+        not known, or if an array is missing, has the wrong type or size or a number that is not
+        finite. The message names the file and the cure.
     """
+    if not isinstance(path, str | os.PathLike):
+        raise wrong_type("load", "path", path, "give the name of a .snapspace file")
     path = Path(path)
     if not path.is_file():
         raise ValueError(f"{path}: there is no such model file; `snapspace build` makes one")

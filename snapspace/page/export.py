@@ -8,7 +8,7 @@ import zlib
 from pathlib import Path
 
 from ..disk.atomic_file import atomic_file
-from ..reduction import ReducedModel
+from ..reduction import ReducedModel, check_model
 from .pack import packed, packed_name
 from .page_file import PLACE, page_html
 
@@ -80,8 +80,9 @@ def export_html(
     Raises
     ------
     ValueError
-        For an unknown extension, or if the file cannot be written.
+        For something else than a model, an unknown extension, or if the file cannot be written.
     """
+    check_model(model, "export_html", "give model, path")
     path = Path(path)
     if path.suffix.lower() not in SUFFIXES:
         raise ValueError(f"{path}: the name of a page must end in {' or '.join(SUFFIXES)}")
@@ -117,8 +118,9 @@ def export_packed(
     Raises
     ------
     ValueError
-        For an unknown extension, or if the file cannot be written.
+        For something else than a model, an unknown extension, or if the file cannot be written.
     """
+    check_model(model, "export_packed", "give model, path")
     path = Path(path)
     if path.suffix.lower() != ".snapspace":
         raise ValueError(f"{path}: the name of a packed model must end in .snapspace")

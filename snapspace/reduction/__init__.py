@@ -14,6 +14,7 @@ from ..cubature import (
     has_hinges,
     has_stars,
 )
+from .check_model import check_model
 from .energy_choice import (
     ENERGIES,
     STORED_ENERGIES,
@@ -64,6 +65,7 @@ __all__ = [
     "Quartic",
     "ReducedModel",
     "blended_sum",
+    "check_model",
     "chosen_energy",
     "coefficient_count",
     "default_blended_tets",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .. import _core as core
+from ..arguments import is_number, is_whole, wrong_type
 
 MINIMIZERS = {"newton": core.Method.newton, "bfgs": core.Method.bfgs}
 PRECISIONS = ("double", "single")
@@ -12,6 +13,11 @@ def check_options(
     tolerance: float, max_iterations: int, max_evaluations: int, minimizer: str, precision: str
 ) -> None:
     """ValueError for an option that a session does not take."""
+    if not is_number(tolerance):
+        raise wrong_type("Session", "tolerance", tolerance, "give a positive number")
+    for name, count in (("max_iterations", max_iterations), ("max_evaluations", max_evaluations)):
+        if not is_whole(count):
+            raise wrong_type("Session", name, count, "give a whole number")
     if not tolerance > 0 or not all(1 <= n < 2**31 for n in (max_iterations, max_evaluations)):
         raise ValueError(
             f"Session: tolerance {tolerance}, max_iterations {max_iterations} and "

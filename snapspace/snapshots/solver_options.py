@@ -95,7 +95,9 @@ class SolverOptions:
 
     def __post_init__(self) -> None:
         if self.solver not in SOLVERS:
-            raise ValueError(f"unknown solver '{self.solver}'; known are {', '.join(SOLVERS)}")
+            raise ValueError(
+                f"SolverOptions: unknown solver '{self.solver}'; known are {', '.join(SOLVERS)}"
+            )
         for name in ("tolerance", "settling", "clamp"):
             if getattr(self, name) is not None and not is_number(getattr(self, name)):
                 raise wrong_type("SolverOptions", name, getattr(self, name), "give a number")
@@ -103,32 +105,41 @@ class SolverOptions:
             if getattr(self, name) is not None and not is_whole(getattr(self, name)):
                 raise wrong_type("SolverOptions", name, getattr(self, name), "give a whole number")
         if self.tolerance is not None and not (np.isfinite(self.tolerance) and self.tolerance > 0):
-            raise ValueError(f"tolerance is {self.tolerance}, but it must be positive")
+            raise ValueError(
+                f"SolverOptions: tolerance is {self.tolerance}, but it must be positive"
+            )
         if self.tolerance is not None and self.tolerance >= 1:
             raise ValueError(
-                f"tolerance is {self.tolerance}, but it must be below 1: it is a share of the "
-                "objective, and every start would count as converged"
+                f"SolverOptions: tolerance is {self.tolerance}, but it must be below 1: it is "
+                "a share of the objective, and every start would count as converged"
             )
         if self.settling is not None and not (np.isfinite(self.settling) and self.settling >= 0):
-            raise ValueError(f"settling is {self.settling}, but it must be zero or positive")
+            raise ValueError(
+                f"SolverOptions: settling is {self.settling}, but it must be zero or positive"
+            )
         if self.max_iterations < 1:
-            raise ValueError(f"max_iterations is {self.max_iterations}, but must be at least 1")
+            raise ValueError(
+                f"SolverOptions: max_iterations is {self.max_iterations}, but must be at least 1"
+            )
         if self.max_iterations > MOST_ITERATIONS:
             raise ValueError(
-                f"max_iterations is {self.max_iterations}, but must be at most {MOST_ITERATIONS}"
+                f"SolverOptions: max_iterations is {self.max_iterations}, but must be at "
+                f"most {MOST_ITERATIONS}"
             )
         if self.projection not in (None, *PROJECTIONS):
             raise ValueError(
-                f"unknown projection '{self.projection}'; known are {', '.join(PROJECTIONS)}"
+                f"SolverOptions: unknown projection '{self.projection}'; known are "
+                f"{', '.join(PROJECTIONS)}"
             )
         if not 0 < self.clamp <= 1:
-            raise ValueError(f"clamp is {self.clamp}, but it must be in (0, 1]")
+            raise ValueError(f"SolverOptions: clamp is {self.clamp}, but it must be in (0, 1]")
         if self.precision not in (None, *PRECISIONS):
             raise ValueError(
-                f"unknown precision '{self.precision}'; known are {', '.join(PRECISIONS)}"
+                f"SolverOptions: unknown precision '{self.precision}'; known are "
+                f"{', '.join(PRECISIONS)}"
             )
         if self.block is not None and self.block < 1:
-            raise ValueError(f"block is {self.block}, but must be at least 1")
+            raise ValueError(f"SolverOptions: block is {self.block}, but must be at least 1")
 
     def resolved(self, problem: Problem) -> ResolvedOptions:
         """The options for a problem, with all defaults resolved."""
@@ -141,8 +152,8 @@ class SolverOptions:
             single = resolves and _in_range(problem)
         if single and tolerance < SINGLE_LIMIT:
             raise ValueError(
-                f"precision single resolves tolerances down to {SINGLE_LIMIT:.0e}, not "
-                f"{tolerance:g}; use double"
+                f"SolverOptions: precision single resolves tolerances down to "
+                f"{SINGLE_LIMIT:.0e}, not {tolerance:g}; use double"
             )
         return ResolvedOptions(
             solver=self.solver,

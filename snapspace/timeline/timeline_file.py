@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ..arguments import wrong_type
 from ..disk import atomic_file
 from ..mesh.input_path import existing_file
 from ..problem.json_entries import as_list, as_number, as_object, as_text, within
@@ -45,7 +46,17 @@ def read_timeline(path: str | os.PathLike[str]) -> Timeline:
 
 
 def write_timeline(path: str | os.PathLike[str], timeline: Timeline) -> Path:
-    """Writes a timeline as JSON; rotations must be given as Euler angles."""
+    """Writes a timeline as JSON.
+
+    Raises
+    ------
+    ValueError
+        For something else than a timeline, rotations that are no Euler angles, or a file that
+        cannot be written.
+    """
+    if not isinstance(timeline, Timeline):
+        cure = "give path, timeline, such as Timeline('posing', keys)"
+        raise wrong_type("write_timeline", "timeline", timeline, cure)
     keys = []
     for key in timeline.keys:
         entry: dict[str, Any] = {"time": key.time, "easing": key.easing}

@@ -3,7 +3,7 @@
 from .error_curve import ErrorCurve, error_curve, usual_dimensions
 from .error_split import PARTS, ErrorSplit, Part, split_errors
 from .frame_errors import solution_errors, unseen_errors
-from .given_reference import check_model, check_reference
+from .given_reference import check_reference
 from .lower_minima import with_lower_minima
 from .next_option import FACTOR, NextOption, needs_advice, next_option
 from .unseen import REFERENCE_TOLERANCE, reference_options, solved_reference, unseen_parameters
@@ -19,7 +19,6 @@ __all__ = [
     "NextOption",
     "Part",
     "Validation",
-    "check_model",
     "check_reference",
     "error_curve",
     "needs_advice",

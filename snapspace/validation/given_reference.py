@@ -4,16 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arguments import wrong_type
-from ..reduction import ReducedModel
+from ..reduction import ReducedModel, check_model
 from ..snapshots import Snapshots
-
-
-def check_model(model: ReducedModel, who: str) -> None:
-    """ValueError of `who` for something else than a model, such as a session."""
-    if not isinstance(model, ReducedModel):
-        cure = "give session.model" if hasattr(model, "model") else "give that of reduce or load"
-        raise wrong_type(who, "model", model, cure)
 
 
 def check_reference(model: ReducedModel, reference: Snapshots, *, who: str = "validate") -> None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..reduction import ReducedModel
+from ..reduction import ReducedModel, check_model
 from ..snapshots import Progress, Snapshots
 from .frame_errors import compared
-from .given_reference import check_model, check_reference
+from .given_reference import check_reference
 from .lower_minima import with_lower_minima
 from .unseen import solved_reference
 from .validation import Validation

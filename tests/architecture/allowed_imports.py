@@ -15,7 +15,7 @@ ALLOWED: dict[str, set[str]] = {
     "blas": {"stopping"},
     "stopping": set(),
     "interruptible": {"_core", "stopping"},
-    "mesh": {"counted", "disk", "input_error", "notice"},
+    "mesh": {"arguments", "counted", "disk", "input_error", "notice"},
     "registration": {"blas", "mesh"},
     "sampling": {"arguments"},
     "pictures": {"disk", "extras"},
@@ -93,6 +93,7 @@ ALLOWED: dict[str, set[str]] = {
         "subspace",
     },
     "model_file": {
+        "arguments",
         "certificate",
         "disk",
         "energy",
@@ -105,6 +106,7 @@ ALLOWED: dict[str, set[str]] = {
     },
     "symmetry": {"mesh", "problem", "reduction"},
     "session": {
+        "arguments",
         "_core",
         "blas",
         "certificate",
@@ -117,7 +119,7 @@ ALLOWED: dict[str, set[str]] = {
         "symmetry",
         "timeline",
     },
-    "timeline": {"disk", "mesh", "problem"},
+    "timeline": {"arguments", "disk", "mesh", "problem"},
     "calibration": {
         "certificate",
         "mesh",
@@ -129,7 +131,7 @@ ALLOWED: dict[str, set[str]] = {
         "validation",
     },
     "gltf": {"blas", "disk", "mesh", "reduction"},
-    "animation": {"arguments", "disk", "gltf", "mesh", "pictures", "reduction"},
+    "animation": {"disk", "gltf", "mesh", "pictures", "reduction"},
     "page": {"certificate", "disk", "mesh", "model_file", "reduction", "subspace", "symmetry"},
     "server": {
         "accurate",

@@ -117,7 +117,7 @@ def test_reports_say_whether_they_converged() -> None:
     ],
 )
 def test_refuses_options(options: dict[str, Any], message: str) -> None:
-    with pytest.raises(ValueError, match=re.escape(message)):
+    with pytest.raises(ValueError, match="^SolverOptions: .*" + re.escape(message)):
         SolverOptions(**options)
 
 
