@@ -32,7 +32,7 @@ _KEYWORD = re.compile(r"(?<!\S)(?!(?:nan|inf|infinity)(?!\S))[A-Za-z]\w*", re.IG
 
 def read_medit(path: Path) -> FileContent:
     """Read vertices and cells of a MEDIT ASCII file; ValueError if it is not one."""
-    text = path.read_text(encoding="utf-8", errors="replace")
+    text = path.read_text(encoding="utf-8-sig", errors="replace")
     if "#" in text:
         text = re.sub(r"#[^\n]*", "", text)
     keywords = list(_KEYWORD.finditer(text))

@@ -9,7 +9,7 @@ import numpy as np
 from ..input_error import located
 from .arrays import FloatArray, IndexArray
 from .input_path import existing_file
-from .surface_file.content import READERS
+from .surface_file.content import READERS, without_mark
 from .surface_file.gltf_file import self_contained
 from .surface_file.surface_file import checked_surface
 
@@ -49,7 +49,7 @@ def read_surface(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArray]:
         data = file.read_bytes()
         if suffix == ".gltf":
             data = self_contained(data, file.parent)
-        content = READERS[suffix](data)
+        content = READERS[suffix](without_mark(suffix, data))
         triangles = content.cells.get("triangle", np.empty((0, 3), np.int64))
         return checked_surface(content.vertices, triangles)
 

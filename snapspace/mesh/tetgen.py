@@ -38,5 +38,5 @@ def read_tetgen(path: Path) -> FileContent:
 
 
 def _lines(path: Path) -> list[str]:
-    raw = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    raw = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
     return [line for text in raw if (line := text.partition("#")[0].strip())]

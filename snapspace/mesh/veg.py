@@ -57,7 +57,7 @@ def _lines(path: Path, *, depth: int) -> Iterator[str]:
     """Lines without comments and blanks; included files are spliced in."""
     if depth > _DEEPEST_INCLUDE:
         raise ValueError(f"*INCLUDE is nested more than {_DEEPEST_INCLUDE} files deep: {path.name}")
-    for raw in path.read_text(encoding="utf-8", errors="replace").splitlines():
+    for raw in path.read_text(encoding="utf-8-sig", errors="replace").splitlines():
         line = raw.partition("#")[0].strip()
         if line[:8].upper() == "*INCLUDE":
             included = path.parent / line[8:].strip()

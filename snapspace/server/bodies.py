@@ -50,7 +50,7 @@ def _problem_body(path: Path, filling: SurfaceFilling | None) -> Body:
     else:
         filled = _read_surface(own).filled(filling or SurfaceFilling(), stage=lambda *_: None)
         problem, surface = read_problem(path, mesh=filled.mesh), filled.surface
-    files = json.loads(path.read_text(encoding="utf-8"))
+    files = json.loads(path.read_text(encoding="utf-8-sig"))
     source = None if surface is None else surface.source
     return Body(
         name=path.stem,

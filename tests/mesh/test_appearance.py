@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import struct
+from codecs import BOM_UTF8
 from pathlib import Path
 
 import numpy as np
@@ -53,6 +54,13 @@ def test_an_obj_has_coordinates_colours_normals_and_materials(variant: str) -> N
     assert red.color == pytest.approx((1.0, 0.2140411, 0.0)), "Kd is sRGB"
     assert blue.texture is None and blue.color == (0.0, 0.0, 1.0)
     assert look.missing == ("spots.tga",)
+
+
+def test_a_library_of_materials_may_begin_with_a_byte_order_mark() -> None:
+    """As editors of Windows write it."""
+    library = b"newmtl blue\nKd 0 0 1\nnewmtl red\nKd 1 0 0\n"
+    look = look_of(SurfaceFile("cube.obj", obj(""), beside={"cube.mtl": BOM_UTF8 + library}))
+    assert [one.color for one in look.materials] == [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)]
 
 
 def test_materials_that_are_missing_are_white_and_told() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from codecs import BOM_UTF8
 from pathlib import Path
 
 import meshio
@@ -77,6 +78,19 @@ def test_reads_vega_files_of_both_numberings(tmp_path: Path, base: int) -> None:
     mesh = irregular_mesh()
     write_veg(tmp_path / "a.veg", mesh, base=base)
     assert read_tets(tmp_path / "a.veg").fingerprint == mesh.fingerprint
+
+
+@pytest.mark.parametrize("name", ["a.veg", "a.mesh", "a.node"])
+def test_texts_may_begin_with_a_byte_order_mark(tmp_path: Path, name: str) -> None:
+    """As editors of Windows write it."""
+    mesh, file = irregular_mesh(), tmp_path / name
+    if name == "a.veg":
+        write_veg(file, mesh)
+    else:
+        write_with_meshio(file, mesh, {"a.mesh": "medit", "a.node": "tetgen"}[name])
+    content = b"\n".join(line for line in file.read_bytes().split(b"\n") if line[:1] != b"#")
+    file.write_bytes(BOM_UTF8 + content)
+    assert read_tets(file).fingerprint == mesh.fingerprint
 
 
 def test_vega_files_may_include_others(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
+from codecs import BOM_UTF8
 from pathlib import Path
 
 import numpy as np
@@ -43,6 +44,22 @@ def test_vertices_and_faces_are_those_of_read_surface(tmp_path: Path, kind: str)
         assert surface.starts.tolist() == list(range(0, 25, 4))
     else:
         assert surface.starts.tolist() == list(range(0, 37, 3))
+
+
+@pytest.mark.parametrize("kind", ["obj", "off", "ply ascii", "ply binary_little_endian"])
+def test_texts_may_begin_with_a_byte_order_mark(tmp_path: Path, kind: str) -> None:
+    """As editors of Windows write it."""
+    file = write_file(tmp_path, kind)
+    before = open_surface(file)
+    content = file.read_bytes()
+    if kind == "obj":  # a mark before a comment does no harm
+        content = content[content.index(b"v  ") :]
+    file.write_bytes(BOM_UTF8 + content)
+    surface = open_surface(file)
+    assert np.array_equal(surface.vertices, before.vertices)
+    assert np.array_equal(surface.faces, before.faces)
+    assert np.array_equal(read_surface(file)[0], before.vertices)
+    assert surface.with_vertices(before.vertices) == content
 
 
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "obj relative"])

@@ -21,7 +21,7 @@ def files_beside(layout: Layout, folder: Path) -> dict[str, bytes]:
     found = _read(layout.refers_to, folder)
     for name, content in list(found.items()):
         if name.lower().endswith(".mtl"):
-            found |= _read(pictures(content.decode("utf-8", "replace")), folder)
+            found |= _read(pictures(content.decode("utf-8-sig", "replace")), folder)
     return found
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from codecs import BOM_UTF8
 from collections.abc import Callable
 
 import numpy as np
@@ -38,6 +39,11 @@ _LAYOUTS: dict[str, Callable[[bytes, FileContent], Layout]] = {
     ".off": off_layout,
     ".ply": ply_layout,
 }
+
+
+def without_mark(suffix: str, data: bytes) -> bytes:
+    """The bytes without the mark that editors of Windows put before a text."""
+    return data.removeprefix(BOM_UTF8) if suffix in _LAYOUTS else data
 
 
 def layout_of(suffix: str, data: bytes) -> Layout:

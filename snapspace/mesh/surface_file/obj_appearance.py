@@ -22,7 +22,7 @@ def obj_appearance(layout: Layout, beside: Mapping[str, bytes]) -> Appearance | 
     known: dict[str, SurfaceMaterial] = {}
     for library in layout.refers_to:
         if library in beside:
-            text = beside[library].decode("utf-8", "replace")
+            text = beside[library].decode("utf-8-sig", "replace")
             known |= read_mtl(text, dict(beside), textures)
         else:
             textures.missing.append(library)

@@ -21,7 +21,7 @@ from ..validation import check_indices, check_points
 from .appearance import Appearance
 from .beside import files_beside, write_beside
 from .carried import carried
-from .content import READERS, layout_of, vertices_of
+from .content import READERS, layout_of, vertices_of, without_mark
 from .gltf_appearance import gltf_appearance
 from .gltf_file import self_contained
 from .layout import Layout
@@ -45,7 +45,7 @@ class SurfaceFile:
     name : str
         The file's name; its extension decides the format.
     data : bytes
-        The whole file.
+        The whole file. A byte order mark before a text is dropped.
     used_only : bool, default False
         Whether vertices without faces are left out of `vertices` (they stay in the file).
     beside : mapping of str to bytes
@@ -79,6 +79,7 @@ class SurfaceFile:
             raise ValueError(
                 f"SurfaceFile: unknown extension {self.suffix!r}; known are {', '.join(READERS)}"
             )
+        object.__setattr__(self, "data", without_mark(self.suffix, self.data))
 
     @property
     def suffix(self) -> str:
