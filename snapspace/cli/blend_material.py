@@ -13,9 +13,11 @@ from ..material import (
     DEFAULT_MATERIAL,
     MATERIALS,
     Material,
+    ShearMaterial,
     default_material,
     material_class,
 )
+from .given_options import chosen_parameters
 from .shell_pose_files import check_shell_options
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -57,9 +59,15 @@ def blend_material(
     ------
     ValueError
         For a material that a shell cannot have, options on the command line that do not go with
-        `--shell`, or a radius of another material.
+        `--shell`, or a radius or first Lame parameter of a material that has none.
     """
     chosen = kind or default_material(surface=shell, blended=True).kind
+    made_of = material_class(chosen)
+    if issubclass(made_of, ShearMaterial) and "lam" in {one.name for one in chosen_parameters()}:
+        raise ValueError(
+            f"--lam is for materials with a first Lame parameter, but {chosen} has none; leave it "
+            "out"
+        )
     if shell:
         check_shell_options(chosen)
     rigid = shell and chosen == ARAP.kind
@@ -70,4 +78,4 @@ def blend_material(
         )
     if rigid:
         return ARAP(mu=mu, radius=BLEND_RADIUS if radius is None else radius)
-    return material_class(chosen).from_lame(lam=lam, mu=mu)
+    return made_of.from_lame(lam=lam, mu=mu)

@@ -10,6 +10,7 @@ from pathlib import Path
 import click
 
 from ..accurate import MOTIONS, check_budget, check_target
+from ..filling import SurfaceFilling
 from ..model_file import check_model_path, load
 from ..problem import is_quartic
 from ..reduction import STORED_ENERGIES, Energy, PosingModel
@@ -19,7 +20,7 @@ from .choices import MOTION_SAMPLINGS, Choices, choice_options
 from .console import print_json, print_next
 from .dask_cluster import dask_executor
 from .energy import EnergyChoice
-from .filling_options import filling_of, filling_options
+from .filling_options import filling_options
 from .given_options import given_options
 from .options import FILE, TET_COUNT, dask_option, json_option, shell_option, threads_option
 from .problem_input import problem_input
@@ -111,7 +112,7 @@ def build(
     given = problem_input(
         problem_file,
         mesh,
-        filling=filling_of(edge_length, exact=exact),
+        filling=SurfaceFilling(edge_length=edge_length, exact=exact),
         repair=repair,
         tets_file=output.with_name(f"{output.stem}-tets.msh"),
         thickness=thickness,

@@ -13,6 +13,7 @@ import click
 
 if TYPE_CHECKING:  # rich is imported only when something is shown
     from rich.console import Console
+    from rich.table import Table
 
 from .printable import printable
 
@@ -39,6 +40,17 @@ def print_json(content: dict[str, Any]) -> None:
     click.echo(json.dumps(_finite(content), indent=2, allow_nan=False))
 
 
+def print_table(table: Table) -> None:
+    """Prints a table on standard error, in a file or pipe without spaces that end its lines."""
+    screen = console()
+    if screen.is_terminal:
+        screen.print(table)
+        return
+    with screen.capture() as shown:
+        screen.print(table)
+    click.echo("\n".join(line.rstrip() for line in shown.get().splitlines()), err=True)
+
+
 def print_facts(title: str, facts: Iterable[tuple[str, str]]) -> None:
     """Prints a table of names and values on standard error."""
     from rich.table import Table
@@ -49,9 +61,8 @@ def print_facts(title: str, facts: Iterable[tuple[str, str]]) -> None:
     table.add_column(overflow="fold")
     for name, value in facts:
         table.add_row(Text(printable(name)), Text(printable(value, keep="\n")))
-    screen = console()
-    screen.print(Text(printable(title), style="bold"))
-    screen.print(table)
+    console().print(Text(printable(title), style="bold"))
+    print_table(table)
 
 
 def print_next(commands: Iterable[tuple[str, Sequence[str | Path]]]) -> None:

@@ -47,11 +47,10 @@ def filling_options(command: Command) -> Command:
     return command
 
 
-def filling_of(edge_length: float | None, *, exact: bool) -> SurfaceFilling:
-    """How to fill; ValueError if fTetWild is asked for and not installed."""
-    if exact:
+def check_installed(filling: SurfaceFilling) -> None:
+    """ValueError if fTetWild is asked for and not installed."""
+    if filling.exact:
         need_extra("fill", who="--exact")
-    return SurfaceFilling(edge_length=edge_length, exact=exact)
 
 
 def check_unfilled(filling: SurfaceFilling, why: str) -> None:
@@ -63,6 +62,7 @@ def check_unfilled(filling: SurfaceFilling, why: str) -> None:
 
 def filled(file: SurfaceFile, filling: SurfaceFilling) -> tuple[TetMesh, bool]:
     """The tets inside a surface file, and whether they are fTetWild's, which differ in each run."""
+    check_installed(filling)
     stages: set[str] = set()
 
     def stage(name: str, *_: int) -> None:

@@ -24,7 +24,7 @@ from .blend_material import blend_material, material_options
 from .build import check_output
 from .build_advice import Suggestions, build_advice
 from .choices import WEIGHT_SAMPLINGS, Choices, choice_options
-from .console import console, notice, print_json, print_next
+from .console import notice, print_json, print_next, print_table
 from .dask_cluster import dask_executor
 from .files import make_folder
 from .filling_options import edge_length_option
@@ -248,7 +248,7 @@ def print_fits(fits: Sequence[PoseFit]) -> None:
             f"{fit.smallest_stretch:.2g} to {fit.largest_stretch:.2g}",
             f"{fit.seconds:.2g}",
         )
-    console().print(table)
+    print_table(table)
     for fit in fits:
         if fit.status != "converged":
             notice(f"notice: {fit.name} ended with {fit.status}, {fit.rms:.2g} from its surface")

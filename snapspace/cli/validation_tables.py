@@ -9,7 +9,7 @@ from rich import box
 from rich.table import Table
 
 from ..validation import PARTS, ErrorCurve, ErrorSplit, Validation
-from .console import console, notice
+from .console import notice, print_table
 
 _STATISTICS = {"mean": "mean", "median": "median", "ninth": "90 %", "std": "std", "max": "max"}
 _ROWS = {
@@ -39,7 +39,7 @@ def print_validation(validation: Validation, dimension: int, *, asked: int) -> N
     if inverted is not None:  # a shell has no tets
         table.add_row("inverted tets", "", "", "", "", str(inverted["frames_max"]))
         table.add_row("inverted tets, full", "", "", "", "", str(inverted["samples_max"]))
-    console().print(table)
+    print_table(table)
     if used < asked:
         notice(
             f"notice: {asked - used} of {asked} full solutions did not converge and are left out"
@@ -53,7 +53,7 @@ def print_split(split: ErrorSplit) -> None:
     rows += [("error with all tets", split.error_of_all_tets), ("error", split.error)]
     for label, values in rows:
         table.add_row(label, f"{np.median(values):.3g}", f"{values.max():.3g}")
-    console().print(table)
+    print_table(table)
 
 
 def print_curve(curve: ErrorCurve) -> None:
@@ -68,7 +68,7 @@ def print_curve(curve: ErrorCurve) -> None:
             f"{np.median(found.projection_error):.3g}",
             f"{np.median(found.solve_ms):.3g}",
         )
-    console().print(table)
+    print_table(table)
 
 
 def _table(title: str, columns: list[str]) -> Table:

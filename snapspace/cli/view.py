@@ -27,7 +27,7 @@ from ..server import (
 from ..server.serve import HOST
 from ..server.settings import UPLOAD_LIMIT
 from .console import notice
-from .filling_options import check_unfilled, filling_of, filling_options
+from .filling_options import check_installed, check_unfilled, filling_options
 from .loading import load_leading
 from .options import FILE, leading_option, shell_option, up_option
 
@@ -90,10 +90,12 @@ def view(
     model = body = None
     filling = None
     if edge_length is not None or exact:
-        filling = filling_of(edge_length, exact=exact)
+        filling = SurfaceFilling(edge_length=edge_length, exact=exact)
     if file is not None:
         existing_file(file, known=(SUFFIX, PROBLEM_SUFFIX, *MESH_SUFFIXES))
     _check_surface_options(file, filling, thickness)
+    if filling is not None:
+        check_installed(filling)
     if file is not None:
         if file.suffix.lower() == SUFFIX:
             model = load_leading(file, dimension)

@@ -11,6 +11,7 @@ from .materials import (
     material_class,
 )
 from .mooney_rivlin import MooneyRivlin
+from .shear_material import ShearMaterial
 from .stable_neo_hookean import StableNeoHookean
 from .stvk import StVK
 from .symmetric_dirichlet import SymmetricDirichlet
@@ -24,6 +25,7 @@ __all__ = [
     "Corotational",
     "Material",
     "MooneyRivlin",
+    "ShearMaterial",
     "StVK",
     "StableNeoHookean",
     "SymmetricDirichlet",

@@ -44,6 +44,7 @@ def test_a_model(run: Run, model: Path) -> None:
     assert figures["provenance"] == loaded.provenance
     assert figures["mesh"]["tets"] == 192
     assert "right: 9 vertices, moves" in result.err
+    assert all(line == line.rstrip() for line in result.err.splitlines()), "it is piped"
 
 
 def test_a_model_without_a_record_is_shown_as_well(run: Run, model: Path) -> None:

@@ -38,6 +38,8 @@ def test_the_summary_says_what_the_energy_is(
     [
         (("--material", "rubber"), "'rubber' is not one of 'arap'"),
         (("--mu", -1), "StableNeoHookean: mu is -1.0, but it must be positive"),
+        (("--material", "arap", "--lam", 2), "--lam is for materials with a first Lame parameter"),
+        (("--shell", 0.01, "--lam", 2), "but arap has none; leave it out"),
         (("--material", "stvk", "--cubature-tets", 9), "that of stvk is exact"),
         (("--target-error", 0.01, "--cubature-tets", 9), "chooses what --cubature-tets decides"),
         (("--samples", 1, "--dimension", 1), "needs at least 2 samples, but there is 1"),

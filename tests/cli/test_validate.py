@@ -45,6 +45,7 @@ def test_the_table_goes_to_standard_error(run: Run, model: Path) -> None:
     assert (result.code, result.out) == (0, "")
     for words in ("3 unseen samples, dimension 10", "projection error", "energy, reduced / full"):
         assert words in result.err
+    assert all(line == line.rstrip() for line in result.err.splitlines()), "it is piped"
 
 
 def test_another_seed_draws_other_samples(run: Run, model: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -44,6 +45,7 @@ def shell(folder: Path) -> Path:
 
 REFUSED: dict[str, tuple[Callable[[Path], Path] | None, list[object], str]] = {
     "tets": (tets, EDGES, "--edge-length is for filling a surface with tets, but {} has tets"),
+    "exact model": (model, ["--exact"], "--exact is for filling a surface with tets, but {} is a"),
     "exact tets": (tets, ["--exact"], "--exact is for filling a surface with tets, but {} has"),
     "problem of tets": (write_problem, EDGES, "but {} has tets already; leave it out"),
     "problem of a shell": (shell, EDGES, "but a shell is not filled; leave it out"),
@@ -61,3 +63,13 @@ def test_options_that_cannot_act_are_refused(run: Run, tmp_path: Path, name: str
     file = None if make is None else make(tmp_path)
     given = [] if file is None else [file]
     assert message.format(file) in run("view", *given, *words, "--no-browser").error
+
+
+def test_exact_is_refused_before_its_package_is_asked_for(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "pytetwild", None)
+    given = ["build", "--problem", write_problem(tmp_path), "-o", tmp_path / "bar.snapspace"]
+    for words in (["view", model(tmp_path), "--no-browser"], given):
+        error = run(*words, "--exact").error
+        assert "--exact is for filling a surface with tets, but" in error
