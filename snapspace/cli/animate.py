@@ -9,18 +9,16 @@ from typing import Any
 import click
 import numpy as np
 
-from ..animation import shape_suffix, write_animation
 from ..problem.json_entries import within
 from ..reduction import InterpolationModel, PosingModel
 from ..timeline import Timeline, read_timeline, timeline_of
 from .console import notice, print_facts, print_json
-from .frames import check_frames_output, frame_options, is_film, notice_old_frames
-from .glb import write_path
+from .frames import check_frames_output, frame_options, is_film
 from .loading import load_leading
 from .options import FILE, json_option, leading_option, up_option
 from .own_surface import check_own_output, check_up, surface_option, with_surface
-from .pose_path import handle_colors
 from .progress import spinner
+from .write_frames import write_frames
 
 
 @click.command(short_help="Solve a timeline and write its frames.")
@@ -83,26 +81,8 @@ def animate(
             f"notice: {len(failed)} of {count} solves ended with {failed[0].status}; those shapes "
             "may be poor"
         )
-    colors = handle_colors(model) if isinstance(model, PosingModel) else None
-    shown_up = up or model.up
-    files: list[Path] = []
     with spinner("writing the frames"):
-        if output is not None and output.suffix.lower() == ".glb":
-            files = write_path(
-                output, model, shapes, up=shown_up, frames_per_second=rate, colors=colors
-            )
-        elif output is not None and film:
-            painted: dict[str, Any] = {} if colors is None else {"colors": colors}
-            files = write_animation(
-                output, model, shapes, frames_per_second=rate, up=shown_up, **painted
-            )
-        elif output is not None:
-            suffix = shape_suffix(model, kind)
-            notice_old_frames(output, count, suffix=suffix)
-            turned: dict[str, Any] = {"up": shown_up} if suffix == ".glb" else {}
-            files = write_animation(
-                output, model, shapes, kind=kind, frames_per_second=rate, **turned
-            )
+        files = write_frames(output, model, shapes, kind=kind, frames_per_second=rate, up=up)
     solve = 1e3 * float(np.median([report.seconds for report in reports]))
     facts = [
         ("timeline", f"{len(timeline.keys)} keys, {timeline.duration:g} s"),

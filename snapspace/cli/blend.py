@@ -10,7 +10,7 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
-from ..animation import shape_suffix, write_animation
+from ..animation import shape_suffix
 from ..extras import need_extra
 from ..mesh import ShellMesh
 from ..mesh.input_path import writable_path
@@ -30,7 +30,6 @@ from .frames import (
     notice_old_frames,
     path_options,
 )
-from .glb import write_path
 from .loading import load_interpolation
 from .options import FILE, json_option, leading_option, numbers_option, up_option
 from .own_surface import (
@@ -41,6 +40,7 @@ from .own_surface import (
     with_surface,
 )
 from .progress import spinner
+from .write_frames import write_frames
 
 EVEN = ("shape", "weights")
 
@@ -141,9 +141,8 @@ def blend(
     if output is not None and film:
         moved = [shape.vertices for shape in shapes]
         rate = frames_per_second or 30.0
-        write = write_path if output.suffix.lower() == ".glb" else write_animation
         with spinner("writing the frames"):
-            written = write(output, model, moved, frames_per_second=rate, up=up or model.up)
+            written = write_frames(output, model, moved, kind=kind, frames_per_second=rate, up=up)
     else:
         written = _write(model, shapes, output, kind=kind, folder=frames is not None, up=up)
     if png is not None:

@@ -30,8 +30,9 @@ from .own_surface import (
     surface_option,
     with_surface,
 )
-from .pose_path import handle_colors, inverted_tets, posed_path
+from .pose_path import inverted_tets, posed_path
 from .progress import spinner
+from .write_frames import handle_colors, write_frames
 
 
 @click.command(cls=MotionCommand, short_help="Move handles and write the shape.")
@@ -115,9 +116,10 @@ def pose(
         _check_finite(path.reports)
         _notice_beyond(problem, parameters)
         rate = frames_per_second or 30.0
-        shown_up = up or model.up
         with spinner("writing the frames"):
-            files = path.write(output, kind=kind, frames_per_second=rate, up=shown_up)
+            files = write_frames(
+                output, model, path.shapes, kind=kind, frames_per_second=rate, up=up
+            )
         path.print_report(files)
         if as_json:
             print_json({"dimension": model.dimension, **path.as_json(files)})

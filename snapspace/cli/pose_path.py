@@ -10,15 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..animation import shape_suffix, write_animation
 from ..mesh import TetMesh
-from ..pictures import tint
 from ..problem import PosingProblem
 from ..reduction import PosingModel
 from ..session import FrameReport
 from .console import notice, print_facts
-from .frames import is_film, notice_old_frames
-from .glb import write_path
 from .motions import Motion
 
 FloatArray = NDArray[np.float64]
@@ -31,32 +27,6 @@ class PosedPath:
     model: PosingModel
     shapes: list[FloatArray]
     reports: list[FrameReport]
-
-    def write(
-        self, output: Path | None, *, kind: str | None, frames_per_second: float, up: str
-    ) -> list[Path]:
-        """Writes the shapes to a folder, or to a film with tinted handles; returns the files."""
-        if output is None:
-            return []
-        if output.suffix.lower() == ".glb":
-            rate, colors = frames_per_second, handle_colors(self.model)
-            shapes = self.shapes
-            return write_path(
-                output, self.model, shapes, up=up, frames_per_second=rate, colors=colors
-            )
-        if is_film(output):
-            return write_animation(
-                output,
-                self.model,
-                self.shapes,
-                frames_per_second=frames_per_second,
-                colors=handle_colors(self.model),
-                up=up,
-            )
-        suffix = shape_suffix(self.model, kind)
-        notice_old_frames(output, len(self.shapes), suffix=suffix)
-        turned: dict[str, Any] = {"up": up} if suffix == ".glb" else {}
-        return write_animation(output, self.model, self.shapes, kind=kind, **turned)
 
     def as_json(self, files: list[Path]) -> dict[str, Any]:
         """The numbers with the keys of `snapspace pose --path --json`."""
@@ -111,9 +81,3 @@ def posed_path(model: PosingModel, motions: Mapping[str, Motion], frames: int) -
 def inverted_tets(problem: PosingProblem, shape: FloatArray) -> int | None:
     """How many tets of a solid a shape inverts; None for a shell."""
     return problem.energy.inverted_tets(shape) if isinstance(problem.mesh, TetMesh) else None
-
-
-def handle_colors(model: PosingModel) -> FloatArray:
-    """Colours of the shown surface's vertices, (s, 3), with the handles tinted."""
-    regions = [model.surface.following(handle.vertices) for handle in model.problem.handles]
-    return tint(len(model.surface.corners), regions)

@@ -33,7 +33,7 @@ def test_a_path_becomes_a_film(
     def small(*arguments: Any, **options: Any) -> Any:
         return write_animation(*arguments, **options, size=(96, 64), samples=1)
 
-    monkeypatch.setattr("snapspace.cli.pose_path.write_animation", small)
+    monkeypatch.setattr("snapspace.cli.write_frames.write_animation", small)
     film = tmp_path / "nod.gif"
     result = run("pose", model, *MOTION, "--path", 2, "-o", film, "--fps", 10)
     assert result.code == 0, result.err
