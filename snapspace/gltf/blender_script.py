@@ -19,8 +19,9 @@ _SCRIPT = '''"""Shape keys of {name}, made by Snapspace. Run it in Blender 4.2 o
 open it in the text editor and press Alt+P, or `blender --python {file}`.
 
 If the active object is a mesh of {count} vertices, it gets the shape keys, and keeps its faces, UVs
-and materials. Otherwise a new object is made. A shape is the sum of the keys; values from -1 to 1
-are those of the training samples.
+and materials; otherwise the only such mesh of the scene without shape keys. If there is none, a new
+object is made, without UVs. A shape is the sum of the keys; values from -1 to 1 are those of the
+training samples.
 """
 
 import base64
@@ -55,9 +56,14 @@ def new_object():
     return made
 
 
+def fits(one):
+    return one is not None and one.type == "MESH" and len(one.data.vertices) == len(BASE)
+
+
 active = bpy.context.view_layer.objects.active
-if active is None or active.type != "MESH" or len(active.data.vertices) != len(BASE):
-    active = new_object()
+if not fits(active):
+    found = [one for one in bpy.context.scene.objects if fits(one) and not one.data.shape_keys]
+    active = found[0] if len(found) == 1 else new_object()
 if active.data.shape_keys is None:
     active.shape_key_add(name="Basis", from_mix=False)
 for number, target in enumerate(TARGETS, start=1):

@@ -40,7 +40,7 @@ class Scene:
         collection = SimpleNamespace(objects=SimpleNamespace(link=lambda made: None))
         self.context = SimpleNamespace(
             view_layer=SimpleNamespace(objects=SimpleNamespace(active=None)),
-            scene=SimpleNamespace(collection=collection),
+            scene=SimpleNamespace(collection=collection, objects=[]),
         )
 
     def _new_mesh(self, name: str) -> Any:
@@ -100,6 +100,23 @@ def test_a_users_mesh_of_the_same_vertices_gets_the_keys(
     run(write_blender(tmp_path / "bar.py", posing_model, mode_targets(posing_model)))
     assert scene.made is own and len(scene.keys) == 1 + posing_model.dimension
     assert scene.faces == []
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_a_users_mesh_need_not_be_active_if_it_is_the_only_one(
+    posing_model: PosingModel, scene: Scene, tmp_path: Path, count: int
+) -> None:
+    own = [scene._new("own", scene._new_mesh("own")) for _ in range(count)]
+    other = scene._new("cube", scene._new_mesh("cube"))
+    for one in own:
+        one.data.vertices = [None] * len(posing_model.surface.corners)
+    other.data.vertices = [None] * 8
+    camera = SimpleNamespace(type="CAMERA")
+    scene.context.scene.objects = [camera, other, *own]
+    scene.context.view_layer.objects.active = other
+    run(write_blender(tmp_path / "bar.py", posing_model, mode_targets(posing_model)))
+    assert len(scene.keys) == 1 + posing_model.dimension
+    assert (scene.faces == []) == (count == 1), "two of them: a new object"
 
 
 def test_few_targets_have_values_up_to_one(
