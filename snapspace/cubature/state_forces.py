@@ -25,6 +25,7 @@ class StateForces:
     forces : (s, d), reduced gradients of the energies
     stresses : (s, c, 9) float32, first Piola-Kirchhoff stress times volume of some tets; of blended
         stars nine for each pose
+    stress_unit : unit of these numbers, a power of two near the mean stiffness times volume
     tet_energies : (s, c), energies of the same tets
     """
 
@@ -32,7 +33,13 @@ class StateForces:
     units: FloatArray
     forces: FloatArray
     stresses: NDArray[np.float32]
+    stress_unit: float
     tet_energies: FloatArray
+
+
+def power_of_two(size: float) -> float:
+    """The power of two above a size, or 1 for zero."""
+    return float(np.ldexp(1.0, np.frexp(size)[1]))
 
 
 @single_threaded_blas
@@ -44,6 +51,8 @@ def state_forces(
     energies, forces = np.empty(count), np.empty((count, basis.shape[1]))
     stresses: list[NDArray[np.float32]] = [np.empty(0, np.float32)] * -(-count // core.lane_count)
     tet_energies = np.empty((count, len(tets)))
+    body, material = states.problem.mesh, states.problem.material
+    unit = power_of_two(float(np.mean(material.stiffness)) * body.diagonal**3 / len(body.elements))
 
     def fill(first: int) -> None:
         some = slice(first, min(first + core.lane_count, count))
@@ -51,11 +60,11 @@ def state_forces(
         found = states.evaluated(first, displacements, tets)
         energies[some], forces[some] = found.energies, found.gradients @ basis
         if len(tets):
-            stresses[first // core.lane_count] = found.stresses.astype(np.float32)
+            stresses[first // core.lane_count] = (found.stresses / unit).astype(np.float32)
             tet_energies[some] = found.tet_energies
 
     with ThreadPoolExecutor(max_workers=threads or os.cpu_count()) as pool:
         list(pool.map(fill, range(0, count, core.lane_count)))
     units = np.maximum(energies, states.floor)
     every = np.concatenate(stresses) if len(tets) else np.empty((count, 0, 9), np.float32)
-    return StateForces(energies, units, forces, every, tet_energies)
+    return StateForces(energies, units, forces, every, unit, tet_energies)

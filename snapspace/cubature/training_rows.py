@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from .. import _core as core
 from ..blas import single_threaded_blas
 from .elastic_states import ElasticStates
-from .state_forces import StateForces
+from .state_forces import StateForces, power_of_two
 
 FloatArray = NDArray[np.float64]
 
@@ -78,6 +78,9 @@ def training_rows(
     rng = np.random.default_rng(seed)
     along = compliances @ rng.standard_normal((count, d, directions))
     forces = np.einsum("sd,sdk->sk", found.forces, along)
+    # exact, since it is a power of two: in any unit of length the columns fit single precision
+    size = power_of_two(np.abs(forces).max(initial=0.0))
+    along, forces = along * (found.stress_unit / size), forces / size
     scale = ENERGY_WEIGHT * np.sqrt(np.mean(forces**2) * directions) / found.units
     columns = np.zeros((len(modes), count * (directions + 1)), np.float32)
     core.training_columns(
