@@ -14,7 +14,7 @@ from ..displacements import SnapshotGram
 from ..greedy import batch_checkpoint
 from ..interruptible import begin_abandonable
 from ..problem import InterpolationProblem, PosingProblem, solutions_beyond_tau
-from ..reduction import InterpolationModel, PosingModel, reduced_solutions
+from ..reduction import InterpolationModel, PosingModel, fewest_snapshots, reduced_solutions
 from ..sampling import Method, sample
 from ..session import predicted_solutions
 from ..snapshots import Snapshots, solve_snapshots, unsolved_snapshots
@@ -242,17 +242,18 @@ class GrowingSamples:
 
     def _training(self) -> NDArray[np.bool_]:
         """Mask (k,) of the usable samples that train; none are needed beside given shapes."""
-        return self._usable(~self.held_out, needed=self._given is None)
+        fewest = max(fewest_snapshots(self.problem, 1), 1) if self._given is None else 0
+        return self._usable(~self.held_out, fewest)
 
     def _judging(self) -> NDArray[np.bool_]:
         """Mask (k,) of the usable samples that are held out."""
-        return self._usable(self.held_out)
+        return self._usable(self.held_out, fewest=1)
 
-    def _usable(self, which: NDArray[np.bool_], *, needed: bool = True) -> NDArray[np.bool_]:
-        usable = self.snapshots.usable
-        if needed and not (usable & which).any():
+    def _usable(self, which: NDArray[np.bool_], fewest: int) -> NDArray[np.bool_]:
+        usable = self.snapshots.usable & which
+        if usable.sum() < fewest:
             raise ValueError(
-                f"accurate_model: only {int(usable.sum())} of {len(usable)} samples converged; "
-                "allow more iterations"
+                f"accurate_model: {int(usable.sum())} of {int(which.sum())} samples converged, but "
+                f"at least {fewest} are needed; allow more iterations, or make the motions smaller"
             )
-        return usable & which
+        return usable

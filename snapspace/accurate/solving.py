@@ -61,7 +61,7 @@ class Solving:
             tolerance=JUDGING * tight.resolved(problem).tolerance,
             settling=None,
             precision=None,
-            max_iterations=5000,
+            max_iterations=max(tight.max_iterations, SolverOptions.max_iterations),
         )
 
     @property

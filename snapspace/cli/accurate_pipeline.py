@@ -118,6 +118,7 @@ def build_accurate_model(
                 tell=notice,
             )
         _notice_missed_target(built, recipe.budget)
+        _notice_unjudged(built)
         unseen = built.held_out & built.snapshots.converged
         known = built.snapshots.select(unseen) if unseen.any() else None
         validation = judged(built.model, known, threads=recipe.threads)
@@ -134,6 +135,17 @@ def build_accurate_model(
     checkpoint.remove()
     seconds["total"] = time.perf_counter() - begin
     return Built(model, built.snapshots, output, seconds, validation)
+
+
+def _notice_unjudged(built: AccurateModel[Any]) -> None:
+    """A notice if full solutions did not converge, so that the errors leave their motions out."""
+    missing = int((built.held_out & ~built.snapshots.converged).sum())
+    if missing:
+        notice(
+            f"notice: the errors leave out {missing} of {int(built.held_out.sum())} unseen "
+            f"{built.step.unseen}, whose full solutions did not converge; others may be worse: "
+            "make the box smaller or the thin parts thicker"
+        )
 
 
 def _notice_missed_target(built: AccurateModel[Any], budget: float | None) -> None:

@@ -56,8 +56,9 @@ class SolverOptions:
     soft_modes : bool, default True
         "fast" only: L-BFGS is seeded with the lowest modes of a posing problem, in addition to the
         scalar factor. Without them it takes half as many steps again, and soft parts lag behind.
-    max_iterations : int, default 1000
-        Limit per sample; a sample that needs more has the status max_iterations.
+    max_iterations : int, default 5000
+        Limit per sample; a sample that needs more has the status max_iterations. Most take fewer
+        than 200, but long thin bodies such as springs and tails of varying tets take thousands.
     projection : "stretches", "clamp" or "absolute", optional
         Newton only: how the Hessian of a tet becomes positive semi-definite. stretches: taken at
         singular values raised to `clamp` (paper, sec. 4.2), the default for St.Venant-Kirchhoff.
@@ -87,7 +88,7 @@ class SolverOptions:
     tolerance: float | None = None
     settling: float | None = None
     soft_modes: bool = True
-    max_iterations: int = 1000
+    max_iterations: int = 5000
     projection: Projection | None = None
     clamp: float = 0.65
     precision: Precision | None = None

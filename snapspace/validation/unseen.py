@@ -28,7 +28,7 @@ def unseen_parameters(domain: Domain, count: int, *, seed: int) -> FloatArray:
 def reference_options(problem: Problem) -> SolverOptions:
     """Solver options for the full solutions with which models are compared."""
     tolerance = min(REFERENCE_TOLERANCE, 0.01 * problem.solving.tolerance)
-    return SolverOptions(tolerance=tolerance, max_iterations=5000)
+    return SolverOptions(tolerance=tolerance)
 
 
 def solved_reference(

@@ -5,13 +5,22 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from snapspace import PosingModel, PosingProblem, solve_snapshots, validate
+from snapspace import (
+    HandleBox,
+    Handles,
+    PosingModel,
+    PosingProblem,
+    SolverOptions,
+    sample,
+    solve_snapshots,
+    validate,
+)
 from snapspace.accurate import AccurateModel, accurate_model, solving
 from snapspace.accurate.growing_samples import GrowingSamples
 from snapspace.accurate.plan import MOTIONS
 from snapspace.accurate.solving import Solving
 
-from ..shapes import slender_problem
+from ..shapes import bar, slender_problem
 
 
 @pytest.fixture(scope="module")
@@ -87,3 +96,21 @@ def test_it_is_the_same_on_any_number_of_threads(
     alone = accurate_model(slender, target_error=0.01, threads=1)
     assert np.array_equal(alone.snapshots.shapes, built.snapshots.shapes)
     assert alone.model.dimension == built.model.dimension
+
+
+def test_samples_of_a_wire_converge_without_options() -> None:
+    """With a limit of 1000 iterations a third did not: models knew only the easy motions."""
+    mesh = bar(150, 1, 1, length=200.0)
+    x = mesh.vertices[:, 0]
+    domain = HandleBox(translation=20.0, angle=np.pi / 4)
+    wire = PosingProblem(mesh, Handles([x < 1.5, x > 198.5]), domain=domain)
+    solved = solve_snapshots(wire, sample(domain, 16, seed=0), options=Solving().usual(wire))
+    assert solved.converged.all()
+    assert max(report.iterations for report in solved.reports) > 1000
+
+
+def test_too_few_converged_samples_are_counted(slender: PosingProblem) -> None:
+    """The reduction saw only the converged ones, and said that there were no more."""
+    options = SolverOptions(max_iterations=60)
+    with pytest.raises(ValueError, match="of 80 samples converged, but at least 10 are needed"):
+        accurate_model(slender, options=options)

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from snapspace import load
+from snapspace import SolverOptions, load
+from snapspace.accurate.solving import Solving
 from snapspace.cli.target_error import BLENDS_DECIDING, MOTIONS_DECIDING
+from snapspace.problem import Problem
 
 from .conftest import Run
 from .files import write_problem, write_tet_poses
+
+#: Enough for some tight solutions of the bar, but not for all.
+ITERATIONS = 34
 
 
 def neo_hookean(folder: Path) -> Path:
@@ -33,6 +39,21 @@ def test_it_reports_what_it_tried_and_reached(run: Run, tmp_path: Path) -> None:
     for shown in (result, run("info", path)):
         assert "5 % asked; nine of ten by less than" in " ".join(shown.err.split())
     assert [file.name for file in tmp_path.glob("*samples*")] == [], "checkpoints are gone"
+
+
+def test_it_says_which_unseen_motions_its_errors_leave_out(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    judging = Solving.judging
+
+    def short(self: Solving, problem: Problem) -> SolverOptions:
+        return replace(judging(self, problem), max_iterations=ITERATIONS)
+
+    monkeypatch.setattr(Solving, "judging", short)
+    words = ("build", "--problem", neo_hookean(tmp_path), "--target-error", 0.05)
+    result = run(*words, "-o", tmp_path / "m.snapspace")
+    assert result.code == 0
+    assert "of 16 unseen motions, whose full solutions did not converge" in result.err
 
 
 def test_an_old_model_is_the_start_of_one_with_other_handles(run: Run, tmp_path: Path) -> None:
