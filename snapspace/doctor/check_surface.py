@@ -14,6 +14,7 @@ from ..mesh.surface_file.surface_file import checked_surface
 from .cleaned import cleaned
 from .edge_findings import copy_findings, edge_findings
 from .finding import Finding
+from .holes import has_wide_hole
 from .shape_findings import (
     crossing_finding,
     face_areas,
@@ -106,7 +107,8 @@ def check_surface(vertices: ArrayLike, faces: ArrayLike) -> SurfaceReport:
     volume = None
     flat = not len(clean.faces) or is_flat(scaled, clean.faces)
     if flat:
-        findings.append(flat_finding())
+        open_sheet = len(clean.faces) > 0 and has_wide_hole(scaled, clean.faces)
+        findings.append(flat_finding(sheet=open_sheet))
     if len(clean.faces):
         edges = edges_of(clean.faces)
         found = edge_findings(points, clean.faces, edges)

@@ -11,7 +11,7 @@ from ..mesh.edges import Edges
 from .cleaned import Cleaned
 from .components import face_components, orientation, parts_apart
 from .fill_holes import closable_holes
-from .finding import Finding
+from .finding import AS_SHELL, Finding
 from .holes import Hole, is_sheet
 
 #: Parts with a smaller share of the area are dust, which filling leaves out.
@@ -122,7 +122,7 @@ def _holes(holes: list[tuple[Hole, IndexArray | None]], sheet: bool) -> Finding:
         filling = "closes none of them, and guesses it by the winding number (fTetWild)"
     cures = [f"--fix closes {share}"] * (can > 0) + ["close them in a mesh editor"]
     if sheet:
-        cures.append("leave a sheet such as cloth open: it is a shell")
+        cures.append(AS_SHELL)
     return Finding(
         name="holes",
         fault=True,

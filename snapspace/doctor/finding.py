@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+#: A cure for what may be open on purpose.
+AS_SHELL = "leave a sheet such as cloth open: it is a shell"
+
 
 @dataclass(frozen=True, kw_only=True)
 class Finding:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ..counted import counted
 from ..mesh import triangle_areas
-from .finding import Finding
+from .finding import AS_SHELL, Finding
 from .intersections import crossing_faces
 
 FloatArray = NDArray[np.float64]
@@ -68,15 +68,17 @@ def thin_finding(volume: float, area: float, diagonal: float) -> list[Finding]:
     ]
 
 
-def flat_finding() -> Finding:
-    """A surface without an inside."""
+def flat_finding(*, sheet: bool = False) -> Finding:
+    """A surface without an inside; a `sheet` may be open on purpose, as cloth is."""
+    cures = ["give it a thickness (Blender: the modifier Solidify)", AS_SHELL]
     return Finding(
         name="flat",
         fault=True,
         count=1,
         text="the surface encloses no volume",
         meaning="tets fill solids; a sheet has no inside",
-        cure="give it a thickness (Blender: the modifier Solidify)",
+        cure="; or ".join(cures if sheet else cures[:1]),
+        details={"sheet": True} if sheet else {},
     )
 
 

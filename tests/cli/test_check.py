@@ -54,6 +54,18 @@ def test_cloth_is_not_to_be_mended_but_a_shell(run: Run, tmp_path: Path) -> None
     assert fixed["mended"]["invented_faces"] == 0, "as the finding says"
 
 
+def test_flat_cloth_is_a_shell_too(run: Run, tmp_path: Path) -> None:
+    """Only a thickness was advised, and no command."""
+    cloth = sheet(8, 5)
+    file = tmp_path / "cloth.obj"
+    write_surface(file, cloth.vertices, cloth.triangles)
+    result = run("check", file, "--json")
+    (flat,) = json.loads(result.out)["findings"]
+    assert flat["name"] == "flat" and flat["fault"] and flat["details"]["sheet"]
+    assert flat["cure"].endswith("or leave a sheet such as cloth open: it is a shell")
+    assert f"snapspace view {file}" in result.err
+
+
 def test_fix_writes_a_surface_that_is_fine(run: Run, tmp_path: Path) -> None:
     out = tmp_path / "mended.obj"
     report = run("check", open_bar(tmp_path), "--fix", out, "--json").json
