@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 
 from snapspace import (
+    HandleBox,
+    Handles,
     InterpolationModel,
     PosingModel,
+    PosingProblem,
     Snapshots,
     Validation,
     error_curve,
@@ -18,6 +21,9 @@ from snapspace import (
     solve_snapshots,
     validate,
 )
+from snapspace.validation import solved_reference
+
+from ..shapes import bar
 
 COUNT = 5
 FIGURES = ("error", "projection_error", "energy_ratio", "iterations", "inverted_tets")
@@ -100,6 +106,17 @@ def test_samples_that_did_not_converge_are_refused(
         validate(posing_model, reference=broken)
     kept = validate(posing_model, reference=broken.select(broken.converged))
     np.testing.assert_array_equal(kept.error, np.delete(checked.error, 2))
+
+
+def test_slow_motions_are_not_left_out() -> None:
+    """With at most 5000 iterations only the easy motions of a wire would judge its model."""
+    mesh = bar(250, 1, 1, length=400.0)
+    x = mesh.vertices[:, 0]
+    domain = HandleBox(translation=40.0, angle=np.pi / 4)
+    wire = PosingProblem(mesh, Handles([x < 1.7, x > 398.3]), domain=domain)
+    reference = solved_reference(wire, samples=4)
+    assert len(reference) == 4
+    assert max(report.iterations for report in reference.reports) > 5000
 
 
 def test_training_samples_are_refused(
