@@ -123,7 +123,9 @@ def accurate_model(
     any is. Then a model is made, and its reduced solutions are compared with the held-out samples.
     The ratio of the two errors decides the next dimension. Where no dimension is enough, half as
     many samples again are solved; they start from the reduced solutions of the best model, if there
-    is one. Without a budget, time plays no part.
+    is one. Where motions miss the target with all their samples, and these allow fewer than 320
+    dimensions, the last model combines parts of samples, see `widen`; bodies of more than 75,000
+    vertices gain nothing by that. Without a budget, time plays no part.
 
     Bodies that are soft between their handles take many evaluations. If the first 32 motions of
     tets take more than 110 each, a model predicts the others: they start from its solutions, have

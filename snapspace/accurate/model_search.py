@@ -5,11 +5,8 @@ from __future__ import annotations
 import itertools
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, replace
 from functools import partial
-from typing import Any
 
-from ..calibration import calibrate
 from ..interruptible import begin_abandonable
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
@@ -20,16 +17,16 @@ from .checks import check_budget, check_most, check_target
 from .dimension_search import DimensionSearch
 from .early_parts import make_early_parts
 from .growing_samples import GrowingSamples
-from .largest_pca import largest_pca
+from .largest_pca import largest_pca, widened_pca
 from .measured_ratio import measured_ratio
 from .old_model import OldModel, check_start, usual_shapes
-from .plan import plan_of, predicted_most_samples, usual_most_samples
+from .plan import is_large, plan_of, predicted_most_samples, usual_most_samples
 from .predicting import MOST_DIMENSIONS, Predicting, predicting_stars
 from .restricted_model import restricted_model, with_starts
 from .search_options import SearchOptions
 from .solving import Solving
 from .step import Step
-from .trial import Trial, trial_of
+from .trial import Trial, recorded, trial_of
 
 Model = PosingModel | InterpolationModel
 #: Gets a line of text for the user.
@@ -143,23 +140,9 @@ class ModelSearch:
 
     @property
     def chosen(self) -> Trial:
-        """The best trial of all, its model calibrated with the held-out samples if it can be.
-
-        The model's provenance has the target and all steps.
-        """
-        best = self.best
-        assert best is not None  # the last stage tries at least one
-        record = {
-            "target_error": self.target,
-            "reached": best.step.error <= self.target,
-            "step": asdict(best.step),
-            "steps": [asdict(step) for step in self.steps],
-        }
-        provenance: dict[str, Any] = {**best.model.provenance, "accurate": record}
-        model = replace(best.model, provenance=provenance)
-        if len(best.unseen) > 1:
-            model = calibrate(model, reference=best.unseen, thorough=False)
-        return replace(best, model=model)
+        """The best trial of all, with a record of the search; see `recorded`."""
+        assert self.best is not None  # the last stage tries at least one
+        return recorded(self.best, self.target, self.steps)
 
     def trials(self, *, one_a_stage: bool = False) -> Iterator[Trial]:
         """Yields the models that are tried; at the end `best` is the one to take.
@@ -188,6 +171,8 @@ class ModelSearch:
                     yield trial
                 if one_a_stage and not tries.steps and not last:
                     yield self._try(count, tries.most, tries)
+                if last and tries.most < self._plan.most_dimensions:
+                    yield from self._widened(count)
             if last or self._is_met:
                 break
             target = f"{100 * self.target:.2g} %"
@@ -246,6 +231,19 @@ class ModelSearch:
         trial = self._judged(count, model, tries.projection(dimension))
         self._model_seconds = time.perf_counter() - begin
         return trial
+
+    def _widened(self, count: int) -> Iterator[Trial]:
+        """Tries more dimensions than the last samples have, see `widened_pca`."""
+        problem, trained = self.samples.problem, self.samples.trained
+        fits = isinstance(problem, PosingProblem) and not is_large(problem)
+        late = self._budget is not None and self.seconds + self._model_seconds > self._budget
+        if self._is_met or late or not fits:
+            return
+        self._tell("there are no more samples: parts of samples are combined")
+        self._begins("subspace")
+        most = min(self._plan.most_dimensions, 2 * len(trained))
+        basis = widened_pca(trained, most, threads=self._solving.threads)
+        yield self._taken(self._judged(count, self._reduced(basis, trained)))
 
     def _judged(self, count: int, model: Model, projection: float | None = None) -> Trial:
         if projection is None:

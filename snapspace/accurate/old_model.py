@@ -21,8 +21,8 @@ from ..snapshots import (
     solve_snapshots,
     unsolved_snapshots,
 )
-from ..subspace import AffineSubspace, widen
-from .largest_pca import largest_pca
+from ..subspace import AffineSubspace
+from .largest_pca import widened_pca
 from .predicting import MOST_DIMENSIONS
 
 FloatArray = NDArray[np.float64]
@@ -37,8 +37,6 @@ MOST_ITERATIONS = 100
 #: Fewest shapes near solutions for each parameter, and their share of those of the old model. Taken
 #: apart they are as good as half as many again were as a whole (docs/notes/other-handles.md).
 SHAPES_A_PARAMETER, SHARE = 8, 0.5
-#: Most directions of whole shapes in a subspace that is widened by their parts.
-MOST_WHOLE = 256
 
 
 class OldModel:
@@ -110,8 +108,7 @@ class OldModel:
         It has at most so many dimensions, and one per shape near a solution more than the model's.
         """
         shapes = near.joined(self.shapes)
-        whole = largest_pca(shapes, MOST_WHOLE, threads=threads)
-        return widen(whole, shapes, dimension=min(most, self.dimension + len(near)))
+        return widened_pca(shapes, min(most, self.dimension + len(near)), threads=threads)
 
     def guesses(self, parameters: FloatArray, *, threads: int | None) -> FloatArray:
         """Displacements (k, 3n) near the solutions for samples (k, p), without solving.

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+from typing import Any
 
 import numpy as np
 
+from ..calibration import calibrate
 from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import Snapshots
 from ..validation import unseen_errors, with_lower_minima
@@ -50,3 +53,21 @@ def trial_of(
         typical=plan.typical_name,
     )
     return Trial(step, model, unseen)
+
+
+def recorded(best: Trial, target: float, steps: Sequence[Step]) -> Trial:
+    """The trial with its model calibrated by the unseen solutions, if there are enough.
+
+    The model's provenance has the target and all steps.
+    """
+    record = {
+        "target_error": target,
+        "reached": best.step.error <= target,
+        "step": asdict(best.step),
+        "steps": [asdict(step) for step in steps],
+    }
+    provenance: dict[str, Any] = {**best.model.provenance, "accurate": record}
+    model = replace(best.model, provenance=provenance)
+    if len(best.unseen) > 1:
+        model = calibrate(model, reference=best.unseen, thorough=False)
+    return replace(best, model=model)

@@ -11,6 +11,7 @@ from snapspace import PosingProblem, Validation, validate
 from snapspace.accurate import AccurateModel, accurate_model, usual_most_samples
 from snapspace.accurate.plan import FEWER_SAMPLES, MOTIONS
 from snapspace.accurate.solving import Solving
+from snapspace.generators import creature_handles
 
 
 @pytest.fixture
@@ -94,3 +95,23 @@ def test_samples_of_large_bodies_are_solved_loosely_unless_they_judge(
     assert usual.tolerance is not None
     assert Solving().usual(problem).tolerance == pytest.approx(10 * usual.tolerance)
     assert Solving().judging(problem) == judging
+
+
+def test_parts_of_samples_are_combined_where_samples_run_out(motions: PosingProblem) -> None:
+    """What the head does in one sample is combined with what the tail does in another."""
+    tail = creature_handles(motions.mesh)["tail"]
+    both = motions.with_handles(motions.handles.adding("tail", tail))
+    lines: list[str] = []
+    built = accurate_model(both, target_error=1e-3, most_samples=60, tell=lines.append)
+    *whole, widened = built.steps
+    assert not built.reached and lines[-2].endswith("parts of samples are combined")
+    assert widened.dimension > (~built.held_out).sum() > whole[-1].dimension
+    assert widened.error < 0.8 * min(step.error for step in whole) and built.step is widened
+    coarse = accurate_model(both, target_error=1e-3, most_samples=60, budget=1e-9)
+    assert coarse.step == whole[0], "there was no time for more"
+
+
+def test_whole_samples_are_enough_where_they_meet_the_target(motions: PosingProblem) -> None:
+    lines: list[str] = []
+    built = accurate_model(motions, target_error=0.05, most_samples=30, tell=lines.append)
+    assert built.reached and not any("parts of samples" in line for line in lines)
