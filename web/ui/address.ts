@@ -2,7 +2,7 @@ import { eulerOfRotation, rotationOfEuler, type Vector } from "../engine/motion.
 import type { Motions, ViewState } from "./view.ts";
 
 /** What the page's address keeps, so that a reload finds the same state: the workspace in the query,
- * and in the hash the pose, the weights of a blend, or that handles are being chosen. */
+ * and in the hash the pose, the weights of a blend, or that handles are being chosen. Keys are beside it. */
 
 export const CHOOSING = "#choose";
 const [POSE, BLEND] = ["#pose=", "#blend="];
@@ -106,11 +106,30 @@ export function keepQuery(name: string, value: string): void {
   write(url);
 }
 
-/** Writes the address; false if it should be tried again later. */
-function write(url: URL): boolean {
-  if (url.href === location.href || location.protocol === "about:") return true; // frames of notebooks have no address
+/** The keys of a timeline, for models of this kind and name; null if there are none. */
+export class KeptKeys {
+  readonly #kind: string;
+
+  constructor(kind: string) {
+    this.#kind = kind;
+  }
+
+  get keys(): string | null {
+    const kept = history.state as { kind?: unknown; keys?: unknown } | null;
+    return kept?.kind === this.#kind && typeof kept.keys === "string" ? kept.keys : null;
+  }
+
+  set keys(keys: string | null) {
+    if (keys !== this.keys) write(new URL(location.href), keys === null ? null : { kind: this.#kind, keys });
+  }
+}
+
+/** Writes the address, and what is kept beside it; false if it should be tried again later. */
+function write(url: URL, beside: unknown = history.state): boolean {
+  const isSame = url.href === location.href && beside === history.state;
+  if (isSame || location.protocol === "about:") return true; // frames of notebooks have no address
   try {
-    history.replaceState(history.state, "", url);
+    history.replaceState(beside, "", url);
   } catch {
     return false; // too often for this browser
   }

@@ -4,7 +4,7 @@ import { BlendingSession, type BlendingModel, type FrameReport } from "../engine
 import { blendPanel } from "./blend_panel.ts";
 import { BlendPath, type Jump } from "./blend_path.ts";
 import { listenToBlendingKeys } from "./blending_keys.ts";
-import { blendHash, keepHashSoon } from "./address.ts";
+import { blendHash, keepHashSoon, KeptKeys } from "./address.ts";
 import { chooser, enable, h, mark, section, toggle } from "./dom.ts";
 import { CLAY } from "./handle_colors.ts";
 import { ExportPanel } from "./export_panel.ts";
@@ -166,6 +166,7 @@ export async function blendingView(
   const ghosts = new Ghosts(stage, () => make(model.space));
   const timeline = new TimelinePanel<readonly number[]>(stage, {
     name: model.name,
+    kept: options.isFromFile ? null : new KeptKeys(`blending ${model.name}`),
     states: weightStates(model.poses),
     state: () => allWeights(choice, model.poses.length),
     show: (weights) => {

@@ -1,4 +1,5 @@
 import type { Motion, PosingSession } from "../engine/index.ts";
+import { KeptKeys } from "./address.ts";
 import { Ghosts, type Ghost } from "./ghosts.ts";
 import { handleStates } from "./key_states.ts";
 import type { Posing } from "./posing.ts";
@@ -9,6 +10,7 @@ import { TimelinePanel } from "./timeline_panel.ts";
 export function posingTimeline(
   posing: Posing,
   name: string,
+  isFromFile: boolean | undefined,
   makeSurface: () => Surface,
   bare: () => () => void,
 ): { panel: TimelinePanel<readonly Motion[]>; ghosts: Ghosts } {
@@ -16,7 +18,9 @@ export function posingTimeline(
   const names = posing.session.model.handles.map((handle) => handle.name);
   const panel = new TimelinePanel<readonly Motion[]>(posing.stage, {
     name,
+    kept: isFromFile ? null : new KeptKeys(`posing ${name}`),
     states: handleStates(names),
+    handles: names,
     state: () => posing.motions,
     show: (motions) => motions.forEach((motion, handle) => posing.wish(handle, motion)),
     settle: () => {

@@ -223,7 +223,13 @@ export async function posingView(
     shape: () => shownShape(posing),
     bare,
   });
-  const { panel: timeline, ghosts } = posingTimeline(posing, model.name, () => scene.anotherSurface(), bare);
+  const { panel: timeline, ghosts } = posingTimeline(
+    posing,
+    model.name,
+    options.isFromFile,
+    () => scene.anotherSurface(),
+    bare,
+  );
   timeline.begin(options.timeline, model.timeline);
   const gravity = model.frames && { diagonal: model.diagonal, up: () => stage.up };
   const swing = jigglePanel(posing.jiggle, () => stage.draw(), gravity);

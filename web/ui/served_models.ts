@@ -120,8 +120,8 @@ export class ServedModels {
   #begin(): void {
     this.#before = this.#model ?? this.#before;
     this.#model = null;
-    // motions are of the handles before, and keys of a blend are of poses
-    this.state = this.#before?.content.kind === "interpolation" ? {} : { timeline: this.state.timeline };
+    // motions are of the handles before, and keys of a blend or of another body do not fit
+    this.state = this.#before?.content.kind === "posing" ? { timeline: this.state.timeline } : {};
     this.panel.clear();
   }
 

@@ -24,6 +24,22 @@ export function readTimeline<State>(text: string, states: States<State>): Timeli
   return timelineOf(parsed(text), states);
 }
 
+/** The timeline of a model that had other handles: keys go on without those that are not among `handles`. */
+export function continuedTimeline<State>(
+  text: string,
+  states: States<State>,
+  handles: readonly string[],
+): { timeline: Timeline<State>; lost: string[] } {
+  const content = parsed(text) as { keys: { handles?: Record<string, unknown> }[] };
+  const lost = new Set<string>();
+  for (const { handles: moved = {} } of content.keys)
+    for (const name of Object.keys(moved).filter((name) => !handles.includes(name))) {
+      lost.add(name);
+      delete moved[name];
+    }
+  return { timeline: timelineOf(content, states), lost: [...lost] };
+}
+
 /** The timeline of parsed JSON; throws an Error with a text for the user. */
 export function timelineOf<State>(given: unknown, states: States<State>): Timeline<State> {
   if (typeof given !== "object" || given === null) throw new Error("This file is no timeline.");

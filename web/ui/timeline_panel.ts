@@ -1,14 +1,19 @@
+import type { KeptKeys } from "./address.ts";
 import { download } from "./download.ts";
 import { enable, filePicker, h, mark, section, setText, toggle } from "./dom.ts";
 import type { Stage } from "./stage.ts";
 import { EASINGS, Timeline, type Easing } from "./timeline.ts";
-import { readTimeline, timelineFile, timelineOf, type States } from "./timeline_file.ts";
+import { continuedTimeline, readTimeline, timelineFile, timelineOf, type States } from "./timeline_file.ts";
 import { drawAt } from "./picture.ts";
 
 /** What a timeline moves. */
 export interface Animated<State> {
   readonly name: string;
   readonly states: States<State>;
+  /** Names of the handles, for a model that has some. */
+  readonly handles?: readonly string[];
+  /** Keys from before a reload, and those for the next one; null if a reload shows another model. */
+  readonly kept: KeptKeys | null;
   /** The present state. */
   state(): State;
   /** Asks for a state, which is solved for before the next picture. */
@@ -109,11 +114,18 @@ export class TimelinePanel<State> {
     this.#take(this.#timeline.map(other));
   }
 
-  /** Takes the content of a file, else the timeline that the model came with; the shape stays. */
-  begin(text: string | null | undefined, own: unknown): void {
+  /** Takes the keys from before another view or a reload, else the timeline that the model came with; the shape stays. */
+  begin(before: string | null | undefined, own: unknown): void {
+    const { kept, handles = [] } = this.#animated;
+    const text = before ?? kept?.keys;
     if (!text && own === undefined) return;
     try {
-      this.#take(text ? readTimeline(text, this.#states) : timelineOf(own, this.#states));
+      const { timeline, lost } = text
+        ? continuedTimeline(text, this.#states, handles)
+        : { timeline: timelineOf(own, this.#states), lost: [] };
+      this.#timeline = timeline; // kept for a reload once it is changed
+      this.#show();
+      if (lost.length > 0) this.#fault.textContent = `The keys go on without ${lost.join(", ")}.`;
     } catch (error) {
       this.#fault.textContent = (error as Error).message;
     }
@@ -194,6 +206,8 @@ export class TimelinePanel<State> {
 
   #take(timeline: Timeline<State>): void {
     this.#timeline = timeline;
+    const { kept } = this.#animated;
+    if (kept) kept.keys = this.content;
     this.#show();
   }
 
