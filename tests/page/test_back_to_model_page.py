@@ -85,7 +85,7 @@ def test_a_model_stays_if_there_is_none_of_other_handles(
         choose(page)
         ranges(page, travel=0.0, degrees=0.0)
         press(page, "Compute")
-        wait_for_text(page, ".fault", "zero")
+        wait_for_text(page, ".fault", "All bounds are zero")
         back(page)
 
         choose(other)

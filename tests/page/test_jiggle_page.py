@@ -53,6 +53,7 @@ def test_gravity_bends_the_body_until_jiggle_is_off(
         damp(posing)
     gravity = posing.page.get_by_label("Gravity", exact=True)
     gravity.fill("3")
+    assert "3.0 diagonals/s²" in posing.text("#panel")
     posing.wait(f"{SPEED} > 0")
     posing.wait(f"{SPEED} < 0.05")
     down = (posing.shown() - rest)[:, 2]  # z is up

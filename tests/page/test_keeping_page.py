@@ -82,7 +82,9 @@ def test_a_kept_point_becomes_a_handle_without_a_jolt(
     kept(page, (15, 30))
     soft = page.shown()
     page.run("(window.recorded = [], null)")
-    wait_for_text(page, "#panel", "The model is being improved for point 1.")
+    words = "document.getElementById('panel').innerText"
+    improved = f"{words}.includes('The model is being improved for point 1.')"
+    page.wait(f"{improved} && {words}.includes('and improving') && !{words}.includes('Done in')")
     page.wait(f"snapspace.session.model.dimension > {first}")
     assert page.run(NAMES) == ["foot", "head", "point 1"]
     assert page.run("snapspace.timeline.timeline.keys.map((key) => key.state.length)") == [3, 3]

@@ -106,6 +106,44 @@ def test_a_turntable_is_a_gif_that_shows_all_sides(posed: Page, tmp_path: Path) 
     np.testing.assert_allclose(posed.run(camera), before, atol=1e-9)
 
 
+def test_pictures_have_no_dots_of_handles(posed: Page, tmp_path: Path) -> None:
+    posed.page.get_by_label("Width in pixels").fill("900")
+    posed.page.get_by_label("Height in pixels").fill("600")
+    dots = "snapspace.stage.root.children.flatMap((part) => part.children).filter(isDot)"
+    is_dot = "(part) => part.material && !part.material.depthTest"
+    shown = f"((isDot) => {dots}.map(({{ visible }}) => visible))({is_dot})"
+    before = posed.run(shown)
+    assert len(before) > 1 and all(before)
+    with Image.open(taken(posed, "PNG", tmp_path)) as picture:
+        seen = np.asarray(picture.convert("RGBA"), np.int64)
+    rims = (seen[:, :, :3].min(axis=2) == 255) & (seen[:, :, 3] == 255)
+    assert not rims.any(), "the rim of a dot is white"
+    assert posed.run(shown) == before
+
+
+def test_a_turntable_is_cancelled(posed: Page) -> None:
+    seconds = posed.page.get_by_label("Seconds of a turn")
+    seconds.fill("60")
+    downloads: list[Any] = []
+
+    def given(download: Any) -> None:
+        downloads.append(download)
+
+    posed.page.on("download", given)
+    turn = posed.page.get_by_role("button", name="Turn, GIF", exact=True)
+    turn.dispatch_event("click")
+    cancel = posed.page.get_by_role("button", name="Cancel", exact=True)
+    cancel.wait_for()
+    assert posed.page.get_by_role("button", name="Turn, WebM").is_disabled()
+    cancel.dispatch_event("click")
+    turn.wait_for()
+    posed.wait("snapspace.stage.controls.enabled")
+    seconds.fill("1")
+    assert not posed.page.get_by_role("button", name="Turn, WebM").is_disabled()
+    posed.page.remove_listener("download", given)
+    assert downloads == [], "no part of a film is given"
+
+
 def test_the_link_has_the_pose(posed: Page, opened: OpenPage) -> None:
     wanted, motions = posed.shown(), posed.motions()
     posed.run("navigator.clipboard.writeText = async (text) => { window.copied = text; }")

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from snapspace import InterpolationModel, PosingModel, read_timeline
 
@@ -106,6 +107,32 @@ def test_keys_move_hold_and_go(posing_page: Path, opened: OpenPage) -> None:
         opened_keys(page, wrong)
         page.page.get_by_text(words).wait_for()
     assert page.run(f"{TIMELINE}.timeline.keys.length") == 2, "the keys before stay"
+
+
+def test_ghosts_do_not_shine_through_what_has_not_moved(
+    posing_page: Path, opened: OpenPage, tmp_path: Path
+) -> None:
+    page = opened(posing_page.as_uri())
+    keys = [{"time": t, "handles": {}} for t in (0, 1)]
+    content = {"format": "snapspace-timeline", "version": 1, "kind": "posing", "keys": keys}
+    opened_keys(page, content)
+    page.wait(f"{TIMELINE}.timeline.keys.length === 2")
+    page.settle()
+    page.page.get_by_label("Width in pixels").fill("300")
+    page.page.get_by_label("Height in pixels").fill("200")
+
+    def picture() -> np.ndarray:
+        with Image.open(taken(page, "PNG", tmp_path)) as seen:
+            return np.asarray(seen.convert("RGBA"), np.int64)
+
+    without = picture()
+    button(page, "Onion skin").click()
+    page.settle()
+    assert page.run(
+        "snapspace.stage.root.children.some((c) => c.children[0]?.material.uniforms.nearer)"
+    )
+    spots = np.abs(picture() - without).max(axis=2) > 3
+    assert spots.mean() < 1e-4
 
 
 def test_edits_end_the_film(posing_page: Path, opened: OpenPage) -> None:

@@ -129,7 +129,7 @@ export class ComputePanel {
     const parts = [`${samples} samples`, `${dimension} dimensions`];
     if (error !== null) parts.push(`error of unseen motions ${percent(error)}`);
     const ready = isRunning ? "Ready to pose, and improving" : "Ready to pose";
-    const head = final ? `Done in ${duration(seconds)}` : ready;
+    const head = final && !isRunning ? `Done in ${duration(seconds)}` : ready;
     setText(this.#model, `${head}: ${parts.join(", ")}.`);
   }
 
@@ -145,8 +145,9 @@ export class ComputePanel {
     return !this.#fault.hidden;
   }
 
+  /** Shows what is wrong, as a sentence; nothing for an empty text. */
   fault(text: string): void {
-    this.#fault.textContent = text;
+    this.#fault.textContent = text.charAt(0).toUpperCase() + text.slice(1);
     this.#fault.hidden = text === "";
   }
 }

@@ -39,7 +39,8 @@ export class ExportPanel {
   readonly #record: HTMLButtonElement;
   readonly #films: HTMLButtonElement[];
   #recording: Recording | null = null;
-  readonly #stop = new AbortController();
+  /** Ends the turntable that is being made. */
+  #turning: AbortController | null = null;
 
   constructor(stage: Stage, exported: Exported) {
     [this.#stage, this.#exported] = [stage, exported];
@@ -103,7 +104,7 @@ export class ExportPanel {
 
   /** Ends films that are being made. */
   dispose(): void {
-    this.#stop.abort();
+    this.#turning?.abort();
     void this.#recording?.stop();
   }
 
@@ -140,27 +141,39 @@ export class ExportPanel {
   }
 
   async #turn(kind: "webm" | "gif"): Promise<void> {
+    if (this.#turning) return this.#turning.abort();
     if (!this.#seconds.reportValidity()) return;
+    const { signal } = (this.#turning = new AbortController());
+    const seconds = this.#seconds.valueAsNumber;
     const show = this.#exported.bare();
-    for (const film of this.#films) film.disabled = true;
-    const { signal } = this.#stop;
+    const [button, other] = kind === "webm" ? this.#films : this.#films.toReversed();
+    const label = button.textContent;
+    button.style.minWidth = `${button.offsetWidth}px`; // the row stays as it is
+    button.textContent = "Cancel";
+    other.disabled = true;
     this.#remark.textContent = "Turning…";
     try {
-      if (kind === "webm")
-        this.#give(await webmTurntable(this.#stage, this.#seconds.valueAsNumber, signal), kind, "video/webm");
-      else this.#give(await this.#gif(signal), kind, "image/gif");
+      const film =
+        kind === "webm"
+          ? await webmTurntable(this.#stage, seconds, signal)
+          : await this.#gif(seconds, signal);
+      if (signal.aborted) this.#remark.textContent = "";
+      else this.#give(film, kind, kind === "webm" ? "video/webm" : "image/gif");
     } finally {
       show();
-      for (const film of this.#films) film.disabled = false;
+      this.#turning = null;
+      button.textContent = label;
+      button.style.minWidth = "";
+      other.disabled = false;
       this.#films[0].disabled = !Recording.isPossible;
     }
   }
 
-  #gif(signal: AbortSignal): Promise<Uint8Array<ArrayBuffer>> {
+  #gif(seconds: number, signal: AbortSignal): Promise<Uint8Array<ArrayBuffer>> {
     const { aspect } = this.#stage.camera;
     const longer = (share: number) => Math.max(1, Math.round(GIF_SIDE * Math.min(1, share)));
     const size = { width: longer(aspect), height: longer(1 / aspect) };
-    return gifTurntable(this.#stage, size, this.#seconds.valueAsNumber, signal, (share) => {
+    return gifTurntable(this.#stage, size, seconds, signal, (share) => {
       this.#remark.textContent = `Turning, ${Math.round(100 * share)} %`;
     });
   }

@@ -1,7 +1,9 @@
 import type { RigidMap } from "../engine/index.ts";
+import { NEARER } from "../render/index.ts";
 import { CLAY } from "./handle_colors.ts";
 import type { Stage } from "./stage.ts";
 import type { Surface } from "./surface.ts";
+import { surfaceVertex } from "./surface_shader.ts";
 
 /** A shape by its coefficients, and where it is carried to. */
 export interface Ghost {
@@ -28,7 +30,7 @@ export class Ghosts {
     while (this.#surfaces.length < ghosts.length) {
       const surface = this.#make();
       surface.paint(() => CLAY);
-      surface.fade(OPACITY);
+      fade(surface);
       this.#stage.root.add(surface.object);
       this.#surfaces.push(surface);
     }
@@ -55,4 +57,16 @@ export class Ghosts {
     }
     this.#surfaces = [];
   }
+}
+
+/** Draws a surface pale, without a shadow, and behind others in the same place: they would show through each other in spots. */
+function fade(surface: Surface): void {
+  const { solid } = surface;
+  Object.assign(solid.material, {
+    vertex: surfaceVertex("COLORS", "MOVED"),
+    isTransparent: true,
+    depthWrite: false,
+  });
+  Object.assign(solid.material.uniforms, { opacity: { value: OPACITY }, nearer: { value: -NEARER } });
+  surface.shadowed = solid.castsShadow = false;
 }

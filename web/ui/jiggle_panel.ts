@@ -46,7 +46,9 @@ export function jigglePanel(
       fall();
     };
     const range = { min: 0, max: 3, step: 0.1, value: 0 };
-    settings.append(slider("Gravity", range, (diagonals) => diagonals.toFixed(1), pull).element);
+    settings.append(
+      slider("Gravity", range, (diagonals) => `${diagonals.toFixed(1)} diagonals/s²`, pull).element,
+    );
   }
   const button = toggle("Jiggle", "The body swings after its handles; J", jiggle.isOn, (on) => {
     settings.hidden = !on;

@@ -1,5 +1,6 @@
 import type { Motion, PosingModel, PosingSession } from "../engine/index.ts";
 import { keepHash, poseHash } from "./address.ts";
+import { withoutMarks } from "./bare.ts";
 import { chooser, choice, enable, h, mark, section, setText, toggle } from "./dom.ts";
 import { handleButtons } from "./handle_buttons.ts";
 import { ExportPanel } from "./export_panel.ts";
@@ -213,7 +214,11 @@ export async function posingView(
   const bare = () => {
     const { selected } = posing;
     posing.select(-1);
-    return () => posing.select(selected);
+    const show = withoutMarks(stage.root);
+    return () => {
+      show();
+      posing.select(selected);
+    };
   };
   const takeAway = new ExportPanel(stage, {
     name: model.name,

@@ -39,7 +39,7 @@ export class Surface {
   readonly #graphics: Graphics;
   readonly #deformer: Deformer;
   readonly #colors: Attribute;
-  readonly #solid: Mesh;
+  readonly solid: Mesh;
   #wires: Mesh | null = null;
   readonly #own: OwnSurface | null;
   readonly #uniforms: SurfaceUniforms;
@@ -87,10 +87,10 @@ export class Surface {
       opacity: { value: 1 },
     };
     const attributes = { position: { data: space.base, size: 3 }, vertexColor: this.#colors };
-    this.#solid = new Mesh(new Geometry(attributes, faces), clay(this.#uniforms));
-    this.#solid.castsShadow = true;
+    this.solid = new Mesh(new Geometry(attributes, faces), clay(this.#uniforms));
+    this.solid.castsShadow = true;
     this.#own = look && new OwnSurface(look, this.#uniforms);
-    this.object.add(this.#solid, ...(this.#own ? [this.#own.object] : []));
+    this.object.add(this.solid, ...(this.#own ? [this.#own.object] : []));
     this.object.matrixAutoUpdate = false;
   }
 
@@ -157,13 +157,6 @@ export class Surface {
     if (this.#wires) this.#wires.visible = visible;
   }
 
-  /** Draws it pale and without a shadow. */
-  fade(opacity: number): void {
-    this.#uniforms.opacity.value = opacity;
-    Object.assign(this.#solid.material, { isTransparent: true, depthWrite: false });
-    this.#solid.castsShadow = this.#uniforms.isShadowed.value = false;
-  }
-
   /** Whether less of the light from all sides reaches creases; ignored where `Occlusion` is not supported. */
   set occluded(on: boolean) {
     this.#occlusion?.dispose();
@@ -196,7 +189,7 @@ export class Surface {
   set colors(colors: Colors) {
     this.#uniforms.shownColors.value = COLORS.indexOf(colors);
     if (this.#own) this.#own.object.visible = colors === "material";
-    this.#solid.visible = !this.#own?.object.visible;
+    this.solid.visible = !this.#own?.object.visible;
     this.#deformer.weigh(colors === "strain" ? this.#weights : null);
     this.#deformer.update(this.#coefficients, this.#share);
     this.#uniforms.shownStrains.value = this.#deformer.strains ?? this.#deformer.normals;
@@ -238,13 +231,13 @@ export class Surface {
   /** A colour for every vertex. */
   paint(color: (vertex: number) => Color): void {
     for (let vertex = 0; vertex < this.space.vertices; vertex++) this.#put(vertex, color(vertex));
-    this.#solid.geometry.changed("vertexColor");
+    this.solid.geometry.changed("vertexColor");
   }
 
   /** One colour for some vertices. */
   paintSome(vertices: Iterable<number>, color: Color): void {
     for (const vertex of vertices) this.#put(vertex, color);
-    this.#solid.geometry.changed("vertexColor");
+    this.solid.geometry.changed("vertexColor");
   }
 
   /** The colour that a vertex was painted in. */
@@ -262,7 +255,7 @@ export class Surface {
     this.#deformer.dispose();
     this.#occlusion?.dispose();
     this.#own?.dispose();
-    this.#solid.geometry.dispose();
+    this.solid.geometry.dispose();
     this.#wires?.geometry.dispose();
   }
 }

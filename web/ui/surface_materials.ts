@@ -47,7 +47,7 @@ export function wires(uniforms: SurfaceUniforms): Material {
     nearer: { value: NEARER },
   };
   return material(
-    { vertex: surfaceVertex("EDGES"), fragment: FLAT, uniforms: { ...uniforms, ...own } },
+    { vertex: surfaceVertex("MOVED"), fragment: FLAT, uniforms: { ...uniforms, ...own } },
     { isTransparent: true, drawsLines: true },
   );
 }

@@ -23,8 +23,8 @@ export type SurfaceUniforms = {
 /** Parts of the shaders: COLORS has colours of vertices, and RAMPS those of displacements and strains. POINTS has points
  * with an attribute `ownVertex`, several of which may be the same vertex of the surface, and CREASED their normals on both
  * sides of edges, from faces around a point: where these start among `ownPairs`, and how many there are. PICTURE has a
- * texture. EDGES is moved before the faces. */
-export type Part = "COLORS" | "RAMPS" | "POINTS" | "CREASED" | "PICTURE" | "EDGES";
+ * texture. MOVED is moved before what it lies on, or behind it. */
+export type Part = "COLORS" | "RAMPS" | "POINTS" | "CREASED" | "PICTURE" | "MOVED";
 
 /** The model's matrix is a motion and a scale, so that normals turn as places do. */
 const VERTEX = `
@@ -94,7 +94,7 @@ void main() {
 #ifdef PICTURE
   corner = uv;
 #endif
-#ifdef EDGES
+#ifdef MOVED
   gl_Position = projected(view, projection, place, nearer);
 #else
   gl_Position = projection * view * vec4(place, 1.0);
