@@ -160,7 +160,7 @@ def test_a_part_without_tets_is_refused_by_name(page: Page) -> None:
     press(page, "Soft part")
     press(page, "Compute")
     page.wait("document.querySelector('.fault').innerText !== ''")
-    assert "part 'soft 1' has no tet" in page.text(".fault")
+    assert "Part 'soft 1' has no tet" in page.text(".fault")
     field = page.page.get_by_label("Stiffness of soft 1")
     for bad in ("0", "-1", ""):
         field.fill(bad)
