@@ -234,13 +234,14 @@ class ModelSearch:
 
     def _widened(self, count: int) -> Iterator[Trial]:
         """Tries more dimensions than the last samples have, see `widened_pca`."""
-        problem, trained = self.samples.problem, self.samples.trained
+        problem = self.samples.problem
         fits = isinstance(problem, PosingProblem) and not is_large(problem)
         late = self._budget is not None and self.seconds + self._model_seconds > self._budget
         if self._is_met or late or not fits:
             return
         self._tell("there are no more samples: parts of samples are combined")
         self._begins("subspace")
+        trained = self.samples.trained
         most = min(self._plan.most_dimensions, 2 * len(trained))
         basis = widened_pca(trained, most, threads=self._solving.threads)
         yield self._taken(self._judged(count, self._reduced(basis, trained)))

@@ -11,7 +11,8 @@ from snapspace import PosingProblem, Validation, validate
 from snapspace.accurate import AccurateModel, accurate_model, usual_most_samples
 from snapspace.accurate.plan import FEWER_SAMPLES, MOTIONS
 from snapspace.accurate.solving import Solving
-from snapspace.generators import creature_handles
+
+from ..snapshots.creatures import adding_a_tail
 
 
 @pytest.fixture
@@ -99,8 +100,7 @@ def test_samples_of_large_bodies_are_solved_loosely_unless_they_judge(
 
 def test_parts_of_samples_are_combined_where_samples_run_out(motions: PosingProblem) -> None:
     """What the head does in one sample is combined with what the tail does in another."""
-    tail = creature_handles(motions.mesh)["tail"]
-    both = motions.with_handles(motions.handles.adding("tail", tail))
+    both = adding_a_tail(motions)
     lines: list[str] = []
     built = accurate_model(both, target_error=1e-3, most_samples=60, tell=lines.append)
     *whole, widened = built.steps

@@ -31,11 +31,7 @@ from snapspace.snapshots import unsolved_snapshots
 from snapspace.validation import solved_reference, unseen_errors
 
 from ..shapes import interpolation_problem
-from ..snapshots.creatures import posing_creature
-
-
-def adding_a_tail(old: PosingProblem) -> PosingProblem:
-    return old.with_handles(old.handles.adding("tail", creature_handles(old.mesh)["tail"]))
+from ..snapshots.creatures import adding_a_tail, posing_creature
 
 
 @pytest.fixture(scope="module")

@@ -19,3 +19,10 @@ def posing_creature(tets: int, material: Material | None = None) -> PosingProble
     handles = Handles([parts["feet"], parts["head"]])
     domain = HandleBox(translation=0.3, angle=np.pi / 4)
     return PosingProblem(mesh, handles, domain=domain, material=material or StVK())
+
+
+def adding_a_tail(old: PosingProblem) -> PosingProblem:
+    """The same creature, also moved by its tail."""
+    return old.with_handles(
+        old.handles.adding("tail", generators.creature_handles(old.mesh)["tail"])
+    )
