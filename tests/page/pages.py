@@ -47,9 +47,14 @@ class Page:
 
     def _console(self, message: Any) -> None:
         text = message.text
+        url = message.location.get("url", "")
         is_lost = self.loses_server and text.startswith(("WebSocket connection", "Failed to load"))
-        if message.type in ("error", "warning") and "GPU stall" not in text and not is_lost:
-            self.faults.append(f"console: {text} {message.location.get('url', '')}".rstrip())
+        # The server keeps two models. A slow page gets no more than that and reads the newest one.
+        is_replaced = "status of 404" in text and "/model/" in url
+        if message.type in ("error", "warning") and not (
+            "GPU stall" in text or is_lost or is_replaced
+        ):
+            self.faults.append(f"console: {text} {url}".rstrip())
 
     def _request(self, request: Any) -> None:
         own = self.address.split("?")[0].rsplit("/", 1)[0]
