@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .disk import atomic_file
-from .gltf import fitted_targets, still_shape, write_glb
+from .gltf import film_targets, still_shape, write_glb
 from .mesh import SURFACE_OUTPUTS, TET_OUTPUTS, EmbeddedSurface, solid_of, write_surface, write_tets
 from .reduction import ReducedModel, check_model
 
@@ -52,7 +52,7 @@ def write_animation(
     **picture
         Options for a film: size, azimuth, elevation, up (default: that of the model), colors and
         others, see `pictures.save_film`. A .glb takes up, colors, and targets: the largest number
-        of morph targets that are fitted to the shapes, default 8, see `gltf.fitted_targets`. The
+        of morph targets that are fitted to the shapes, at least 2, default 8, see `write_glb`. The
         kind glb takes up.
 
     Returns
@@ -86,7 +86,7 @@ def write_animation(
         _check_options(target, picture, _GLB_OPTIONS)
         count = picture.pop("targets", 8)
         placed = [_checked(shape, model) for shape in shapes]
-        morphs = fitted_targets(model, placed, count=count)
+        morphs = film_targets(model, placed, count=count)
         rate = frames_per_second
         return [write_glb(target, model, morphs, frames_per_second=rate, **picture)]
     suffix = shape_suffix(model, kind)

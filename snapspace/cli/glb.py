@@ -10,7 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..gltf import MorphTargets, fitted_targets, mode_targets, write_blender, write_glb
+from ..gltf import (
+    MorphTargets,
+    film_targets,
+    fitted_targets,
+    mode_targets,
+    write_blender,
+    write_glb,
+)
 from ..reduction import ReducedModel
 from .console import notice
 from .units import in_bytes
@@ -33,7 +40,7 @@ def write_path(
 
     The colours (s, 3) are for surfaces without materials of their own.
     """
-    morphs = fitted_targets(model, np.array(shapes), count=FEW)
+    morphs = film_targets(model, np.array(shapes), count=FEW)
     tint = colors if morphs.drawn.look is None else None
     write_glb(output, model, morphs, up=up, frames_per_second=frames_per_second, colors=tint)
     notice(described(output, model, morphs))

@@ -15,6 +15,7 @@ from .glb_file import GlbFile
 from .glb_materials import own_materials, plain_material
 from .glb_mesh import glb_mesh
 from .morph_targets import MorphTargets
+from .sliders import with_sliders
 
 FloatArray = NDArray[np.float64]
 #: Quaternions x, y, z, w that turn an axis to y, which is up in glTF.
@@ -43,7 +44,8 @@ def write_glb(
         colours and sharp edges of the user's own file, if it is of one.
     morphs : MorphTargets
         From `mode_targets` or `fitted_targets`. With two or more rows of weights these are the
-        frames of an animation; one row is the initial state.
+        frames of an animation, written as weights between 0 and 1, which Blender and engines do not
+        clamp; that may take one more target. One row is the initial state.
     name : str, optional
         Of mesh and node. Default: the file's name without its extension.
     up : "x", "y" or "z", default that of the model
@@ -77,6 +79,8 @@ def write_glb(
         raise ValueError(f"write_glb: up is '{axis}', but it must be one of x, y, z")
     if not (np.isfinite(frames_per_second) and frames_per_second > 0.0):
         raise ValueError(f"write_glb: frames_per_second {frames_per_second} must be positive")
+    if len(morphs.weights) > 1:
+        morphs = with_sliders(morphs)
     file, drawn = GlbFile(), morphs.drawn
     if colors is None and drawn.look is not None:
         materials = own_materials(file, drawn.look, both_sides=drawn.both_sides)

@@ -140,6 +140,8 @@ def test_bad_options_are_refused(
 def test_bad_input_is_refused(posing_model: PosingModel, shapes: Shapes, tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=r"bar\.gltf must end in \.glb"):
         write_glb(tmp_path / "bar.gltf", posing_model, mode_targets(posing_model))
+    with pytest.raises(ValueError, match="a film needs at least two, not 1"):
+        write_animation(tmp_path / "bar.glb", posing_model, shapes, targets=1)
     for given, count in ((shapes[:0], 8), (shapes, 0)):
         with pytest.raises(ValueError, match="needs shapes and at least one target"):
             fitted_targets(posing_model, given, count=count)
