@@ -103,7 +103,7 @@ def fitted_targets(model: ReducedModel, shapes: ArrayLike, *, count: int = 8) ->
     base = surface.vertices(model.subspace.tau.reshape(-1, 3))
     seen = _on_surface(model, given)
     targets, weights = _leading((seen - base).reshape(len(given), -1), count)
-    targets = targets.reshape(len(targets), -1, 3)
+    targets = targets.reshape(len(targets), *base.shape)
     error = _largest_distance(base, targets, weights, seen)
     drawn = drawn_surface(surface)
     normals, changes = _normals(base, targets, weights, drawn)
@@ -152,17 +152,17 @@ def _normals(
     normals = unit_normals(base[vertex], faces)
     if len(weights) == 0:
         return normals, np.zeros((len(targets), *normals.shape))
-    flat = targets.reshape(len(targets), -1)
+    flat = targets.reshape(len(targets), base.size)
     shapes = ((base + (w @ flat).reshape(-1, 3))[vertex] for w in weights)
     changes = np.array([unit_normals(shape, faces) - normals for shape in shapes])
-    fitted = np.linalg.pinv(weights, rcond=1e-6) @ changes.reshape(len(weights), -1)
+    fitted = np.linalg.pinv(weights, rcond=1e-6) @ changes.reshape(len(weights), normals.size)
     return normals, fitted.reshape(len(targets), *normals.shape)
 
 
 def _largest_distance(
     base: FloatArray, targets: FloatArray, weights: FloatArray, shapes: FloatArray
 ) -> float:
-    flat = targets.reshape(len(targets), -1)
+    flat = targets.reshape(len(targets), base.size)
     most = 0.0
     for w, shape in zip(weights, shapes, strict=True):
         miss = base + (w @ flat).reshape(-1, 3) - shape

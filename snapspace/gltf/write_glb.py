@@ -95,7 +95,7 @@ def write_glb(
         "meshes": [glb_mesh(file, title, morphs, colors=colors)],
         **materials,
     }
-    if len(morphs.weights) > 1:
+    if len(morphs.weights) > 1 and len(morphs.targets):
         content["animations"] = [_animation(file, morphs.weights, frames_per_second)]
     with atomic_file(target) as temporary:
         temporary.write_bytes(file.file_bytes(content))

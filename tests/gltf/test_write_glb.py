@@ -63,6 +63,15 @@ def test_few_targets_are_the_best(posing_model: PosingModel, shapes: Shapes) -> 
     )
 
 
+def test_a_film_at_rest_has_no_targets(posing_model: PosingModel, tmp_path: Path) -> None:
+    still = [posing_model.problem.mesh.vertices] * 3
+    (path,) = write_animation(tmp_path / "still.glb", posing_model, still)
+    file = GlbContent(path)
+    assert "animations" not in file.json and "targets" not in file.primitive
+    faces = file.array(file.primitive["indices"])
+    np.testing.assert_array_equal(faces.reshape(-1, 3), posing_model.surface.faces)
+
+
 def test_normals_follow_the_shape(posing_model: PosingModel, shapes: Shapes) -> None:
     """They are nearer to those of the shape than the base's are, by far."""
     morphs = fitted_targets(posing_model, shapes, count=8)
