@@ -14,64 +14,137 @@ from ..mesh import EmbeddedSurface
 from ..reduction import ReducedModel
 from .morph_targets import MorphTargets
 
-_SCRIPT = '''"""Shape keys of {name}, made by Snapspace. Run it in Blender 4.2 or later:
+_SCRIPT = '''"""Shape keys made by Snapspace. Run it in Blender 4.2 or later:
 
-open it in the text editor and press Alt+P, or `blender --python {file}`.
+open it in the text editor and press Alt+P, or give it to `blender --python`.
 
-If the active object is a mesh of {count} vertices, it gets the shape keys, and keeps its faces, UVs
-and materials; otherwise the only such mesh of the scene without shape keys. If there is none, a new
-object is made, without UVs. A shape is the sum of the keys; values from -1 to 1 are those of the
-training samples.
+If the active object is the mesh that the model was made from, it gets the shape keys, and keeps its
+faces, UVs and materials; otherwise the only such mesh of the scene without shape keys. It may have
+been moved, scaled, and turned by right angles, as importers do; vertices are found by their places.
+If there is none, a new object is made, without UVs. A shape is the sum of the keys; values from -1
+to 1 are those of the training samples. Run again, the script replaces its keys.
 """
 
 import base64
+import itertools
 import zlib
 
 import bpy
 import numpy as np
+from mathutils import Euler
+from mathutils.kdtree import KDTree
 
 NAME = {name!r}
 #: Axis that points up.
 UP = {up!r}
+#: What turns it to Blender's z.
+UPRIGHT = {{"x": (0, -np.pi / 2, 0), "y": (np.pi / 2, 0, 0), "z": (0, 0, 0)}}[UP]
+#: Vertices that are nearer than this share of the diagonal are in the same place.
+CLOSE = 1e-4
 
 
 def array(text, kind, *shape):
     return np.frombuffer(zlib.decompress(base64.b85decode(text)), kind).reshape(*shape)
 
 
-BASE = array({base!r}, "<f4", -1, 3)
-TARGETS = array({targets!r}, "<f4", -1, len(BASE), 3)
+#: Vertices at rest, displacements of them, and the corners of the faces.
+REST = array({rest!r}, "<f4", -1, 3)
+KEYS = {keys!r}
+MOVES = array({moves!r}, "<f4", len(KEYS), len(REST), 3)
 CORNERS = array({corners!r}, "<i4", -1)
 STARTS = array({starts!r}, "<i4", -1)
+#: All turns by right angles, with none as the first.
+SIGNED = [
+    np.eye(3)[list(order)] * np.array(signs)[:, None]
+    for order in itertools.permutations(range(3))
+    for signs in itertools.product((1, -1), repeat=3)
+]
+TURNS = [turn for turn in SIGNED if np.linalg.det(turn) > 0]
 
 
 def new_object():
     mesh = bpy.data.meshes.new(NAME)
     faces = [CORNERS[a:b].tolist() for a, b in zip(STARTS[:-1], STARTS[1:])]
-    mesh.from_pydata(BASE.tolist(), [], faces)
+    mesh.from_pydata(REST.tolist(), [], faces)
     mesh.shade_smooth()
     made = bpy.data.objects.new(NAME, mesh)
-    made.rotation_euler = {{"x": (0, -np.pi / 2, 0), "y": (np.pi / 2, 0, 0), "z": (0, 0, 0)}}[UP]
+    made.rotation_euler = UPRIGHT
     bpy.context.scene.collection.objects.link(made)
+    bpy.context.view_layer.objects.active = made
     return made
 
 
-def fits(one):
-    return one is not None and one.type == "MESH" and len(one.data.vertices) == len(BASE)
+def points_of(one):
+    keys = one.data.shape_keys
+    points = keys.key_blocks[0].data if keys else one.data.vertices
+    found = np.empty(3 * len(points), np.float32)
+    points.foreach_get("co", found)
+    return found.reshape(-1, 3)
 
 
+def in_unit_box(points):
+    low, high = points.min(axis=0), points.max(axis=0)
+    size = np.linalg.norm(high - low)
+    return (points - (low + high) / 2) / size, size
+
+
+HOME, SIZE = in_unit_box(REST)
+TREE = KDTree(len(HOME))
+for number, place in enumerate(HOME):
+    TREE.insert(place, number)
+TREE.balance()
+
+
+def turned_upright(one):
+    """The turn that is right if the object stands as importers put it."""
+    here = np.array(one.matrix_world.to_quaternion().to_matrix())
+    return here.T @ np.array(Euler(UPRIGHT).to_matrix())
+
+
+def moves_for(one):
+    """What turns moves into those of the object, and whose move each vertex makes, or None."""
+    if one is None or one.type != "MESH" or len(one.data.vertices) < 2:
+        return None
+    points, size = in_unit_box(points_of(one))
+    if len(points) == len(HOME):
+        for turn in TURNS:
+            if np.abs(points @ turn - HOME).max() < CLOSE:
+                return size / SIZE * turn, np.arange(len(HOME))
+    for turn in [turned_upright(one), *TURNS]:
+        turned = points @ turn
+        if np.abs(turned.max(axis=0) - HOME.max(axis=0)).max() < CLOSE:
+            found = [TREE.find(place) for place in turned]
+            if max(distance for _, _, distance in found) < CLOSE:
+                return size / SIZE * turn, np.array([number for _, number, _ in found])
+    return None
+
+
+if bpy.context.mode != "OBJECT":
+    bpy.ops.object.mode_set(mode="OBJECT")
 active = bpy.context.view_layer.objects.active
-if not fits(active):
-    found = [one for one in bpy.context.scene.objects if fits(one) and not one.data.shape_keys]
-    active = found[0] if len(found) == 1 else new_object()
+fit = moves_for(active)
+if fit is None:
+    meshes = [one for one in bpy.context.scene.objects if one.type == "MESH"]
+    free = [one for one in meshes if not one.data.shape_keys and moves_for(one)]
+    active = free[0] if len(free) == 1 else new_object()
+    fit = moves_for(active)
+turn, own = fit
 if active.data.shape_keys is None:
     active.shape_key_add(name="Basis", from_mix=False)
-for number, target in enumerate(TARGETS, start=1):
-    key = active.shape_key_add(name=f"Mode {{number}}", from_mix=False)
-    key.data.foreach_set("co", (BASE + target).ravel())
+rest = points_of(active)
+blocks = active.data.shape_keys.key_blocks
+for name, moves in zip(KEYS, MOVES):
+    key = blocks.get(name) or active.shape_key_add(name=name, from_mix=False)
+    key.data.foreach_set("co", (rest + moves[own] @ turn.T).astype(np.float32).ravel())
     key.slider_min, key.slider_max = -1.0, 1.0
+    if name == {mean!r}:
+        key.value = 1.0
 active.data.update()
 '''
+#: The key of the shape that all others are added to, where that is not the shape at rest.
+MEAN = "Mean"
+#: Shapes that differ by less than this share of the diagonal are the same.
+_SAME = 1e-9
 
 
 def write_blender(
@@ -99,8 +172,9 @@ def write_blender(
     Returns
     -------
     Path
-        The script. Keys are displacements from the base, scaled so that the training samples have
-        values between -1 and 1; faces are those of the surface's file where it is known.
+        The script. Keys are displacements from the rest shape, scaled so that the training samples
+        have values between -1 and 1; faces are those of the surface's file where it is known. Where
+        the base is another shape, as in most blends, the key Mean is it, with the value 1.
 
     Raises
     ------
@@ -111,14 +185,18 @@ def write_blender(
     if path.suffix.lower() != ".py":
         raise ValueError(f"{path}: the name of a script for Blender must end in .py")
     corners, starts = _polygons(model.surface)
-    targets = morphs.targets * _largest_weights(model, morphs)[:, None, None]
+    rest = model.surface.vertices(model.problem.mesh.vertices)
+    moves = morphs.targets * _largest_weights(model, morphs)[:, None, None]
+    keys = [f"Mode {number + 1}" for number in range(len(moves))]
+    if np.abs(morphs.base - rest).max() > _SAME * model.problem.mesh.diagonal:
+        keys, moves = [MEAN, *keys], np.concatenate([(morphs.base - rest)[None], moves])
     content = _SCRIPT.format(
         name=path.stem if name is None else name,
-        file=path.name,
-        count=len(morphs.base),
         up=getattr(model, "up", "z") if up is None else up,
-        base=_text(morphs.base.astype("<f4")),
-        targets=_text(targets.astype("<f4")),
+        rest=_text(rest.astype("<f4")),
+        keys=keys,
+        mean=MEAN,
+        moves=_text(moves.astype("<f4")),
         corners=_text(corners.astype("<i4")),
         starts=_text(starts.astype("<i4")),
     )

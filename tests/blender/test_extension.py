@@ -10,21 +10,14 @@ import pytest
 
 import snapspace as ss
 
+from .drawn import drawn
+
 
 def result(owner: Any) -> np.ndarray:
     """Points of the key that shows the solved shape."""
     key = owner.data.shape_keys.key_blocks["Snapspace"]
     points = np.empty(3 * len(key.data), np.float32)
     key.data.foreach_get("co", points)
-    return points.reshape(-1, 3).astype(float)
-
-
-def drawn(bpy: Any, owner: Any) -> np.ndarray:
-    """Points of the mesh after shape keys, as Blender draws it."""
-    bpy.context.view_layer.update()
-    mesh = owner.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
-    points = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.vertices.foreach_get("co", points)
     return points.reshape(-1, 3).astype(float)
 
 
