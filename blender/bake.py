@@ -1,14 +1,15 @@
 """Baking: the solved film as shape keys with keyframes, for files that need no extension."""
 
+from collections.abc import Iterator
+
 import bpy
 import numpy as np
 
-from . import live
-from .mesh_data import RESULT, rest_points, write_key
-from .principal_shapes import principal_shapes
+from snapspace.gltf import sliders
 
-#: Shape keys that were baked have names that begin with this.
-BAKED = "Baked"
+from . import live
+from .mesh_data import BAKED, RESULT, baked_keys, rest_points, write_key
+from .principal_shapes import principal_shapes
 
 
 class SNAPSPACE_OT_bake(bpy.types.Operator):
@@ -28,16 +29,17 @@ class SNAPSPACE_OT_bake(bpy.types.Operator):
     )
     most: bpy.props.IntProperty(
         name="Most shape keys",
-        description="Even if the tolerance needs more",
+        description="Even if the tolerance needs more; one of them may be an offset",
         default=64,
-        min=1,
+        min=2,
         max=500,
     )
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         owner = context.object
-        return owner is not None and owner.type == "MESH" and bool(owner.snapspace.model)
+        known = owner is not None and owner.type == "MESH" and bool(owner.snapspace.model)
+        return known and owner.mode == "OBJECT"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         owner, scene = context.object, context.scene
@@ -53,13 +55,13 @@ class SNAPSPACE_OT_bake(bpy.types.Operator):
         rest = rest_points(owner.data)
         diagonal = float(np.linalg.norm(np.ptp(rest, axis=0)))
         found = principal_shapes(
-            np.array(film) - rest, tolerance=self.tolerance * diagonal, most=self.most
+            np.array(film) - rest, tolerance=self.tolerance * diagonal, most=self.most - 1
         )
-        _write(owner, rest, found.shapes, found.values, frames)
+        mix, values = sliders(found.values)
+        shapes = np.tensordot(mix, found.shapes, axes=1)
+        _write(owner, rest, shapes, values, frames)
         share = found.error / diagonal
-        self.report(
-            {"INFO"}, f"{len(found.shapes)} shape keys, at most {share:.1e} of the diagonal off"
-        )
+        self.report({"INFO"}, f"{len(shapes)} shape keys, at most {share:.1e} of the diagonal off")
         return {"FINISHED"}
 
     def _solved(
@@ -81,18 +83,40 @@ def _write(
 ) -> None:
     """Replaces earlier baked keys, and switches the live shape off, so that they do not add up."""
     owner.snapspace.live = False
-    blocks = owner.data.shape_keys.key_blocks
-    for key in [key for key in blocks if key.name.startswith(BAKED)]:
+    for key in baked_keys(owner):
+        _forget_motion(key)
         owner.shape_key_remove(key)
-    blocks[RESULT].value = 0.0
+    owner.data.shape_keys.key_blocks[RESULT].value = 0.0
     for number, shape in enumerate(shapes):
         key = owner.shape_key_add(name=f"{BAKED} {number}", from_mix=False)
         write_key(key, rest + shape)
-        key.slider_min, key.slider_max = -1.0, 1.0
         for frame, value in zip(frames, values[:, number], strict=True):
             key.value = value
             key.keyframe_insert("value", frame=frame)
     owner.data.update()
+
+
+def _forget_motion(key: bpy.types.ShapeKey) -> None:
+    """Removes the keyframes of a key, which a key of the same name would get again."""
+    path = key.path_from_id("value")
+    for curves in _curves(key.id_data):
+        for curve in [curve for curve in curves if curve.data_path == path]:
+            curves.remove(curve)
+
+
+def _curves(keys: bpy.types.Key) -> Iterator[bpy.types.bpy_prop_collection]:
+    """The curves of the keys' action. Since 5.0 Blender has them by the slot of who is animated."""
+    animation = keys.animation_data
+    action = None if animation is None else animation.action
+    if action is None:
+        return
+    if bpy.app.version < (5, 0, 0):
+        yield action.fcurves
+        return
+    for strip in (strip for layer in action.layers for strip in layer.strips):
+        for bag in strip.channelbags:
+            if bag.slot_handle == animation.action_slot_handle:
+                yield bag.fcurves
 
 
 def register() -> None:

@@ -12,7 +12,7 @@ import snapspace as ss
 from snapspace.stopping import Stopped, stoppable
 
 from . import live, models
-from .empties import make_empties
+from .empties import check_alone, make_empties
 from .mesh_data import (
     check_scale,
     handle_vertices,
@@ -31,6 +31,7 @@ INTERVAL = 0.1  # seconds between two looks for news
 def posing_work(owner: bpy.types.Object) -> Callable[[], Growths]:
     """What computes the model of an object's vertex groups. ValueError for an unusable object."""
     check_scale(owner)
+    check_alone(owner)
     settings, handles = owner.snapspace, handle_vertices(owner)
     points, faces = rest_points(owner.data), triangles(owner.data)
     motions = Motions(settings.translation, settings.angle)
@@ -148,6 +149,7 @@ class _Compute:
 
     def _show(self, context: bpy.types.Context, owner: bpy.types.Object, growth: ss.Growth) -> None:
         model = growth.model
+        owner.snapspace.live = True  # baking has switched it off
         result_key(owner)
         models.show(owner, model)
         if isinstance(model, ss.PosingModel):

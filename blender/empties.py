@@ -45,16 +45,30 @@ def make_empties(
         empty[REST] = [float(x) for x in place]
 
 
+def check_alone(owner: bpy.types.Object) -> None:
+    """ValueError if the empties of another object move the same mesh."""
+    for other in bpy.data.objects:
+        if other is not owner and other.data == owner.data and handle_empties(other):
+            raise ValueError(
+                f"{owner.name} and {other.name} share a mesh, which the empties of {other.name} "
+                "move; give it a mesh of its own (Object > Relations > Make Single User)"
+            )
+
+
 def motions_of(
-    owner: bpy.types.Object, depsgraph: bpy.types.Depsgraph
+    owner: bpy.types.Object, depsgraph: bpy.types.Depsgraph, names: Sequence[str]
 ) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Rotation matrix and translation of each handle from rest, in the frame of the object.
 
-    Animation, drivers and constraints of the empties count; their scales do not.
+    Animation, drivers and constraints of the empties count; their scales do not. A handle whose
+    empty was removed rests. ValueError if all were, as in a copy of the object alone.
     """
     to_owner = owner.evaluated_get(depsgraph).matrix_world.inverted_safe()
-    found = {}
-    for name, empty in handle_empties(owner).items():
+    empties = {name: one for name, one in handle_empties(owner).items() if name in names}
+    if not empties:
+        raise ValueError(f"{owner.name} has no empties for its handles; Compute makes them")
+    found = {name: (np.eye(3), np.zeros(3)) for name in names}
+    for name, empty in empties.items():
         local = to_owner @ empty.evaluated_get(depsgraph).matrix_world
         rotation = np.array(local.to_quaternion().to_matrix(), np.float64)
         found[name] = rotation, np.array(local.translation) - np.array(empty[REST])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import bpy
 import numpy as np
 from bpy.app.handlers import persistent
@@ -25,7 +27,7 @@ def solved_points(owner: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np
         return None
     posing = hasattr(session, "move_all")
     if posing:
-        motions = motions_of(owner, depsgraph)
+        motions = motions_of(owner, depsgraph, session.model.problem.handles.names)
         asked = b"".join(
             name.encode() + r.tobytes() + t.tobytes() for name, (r, t) in motions.items()
         )
@@ -35,6 +37,7 @@ def solved_points(owner: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np
     asked += id(session).to_bytes(8, "little")
     if _solved.get(owner.session_uid) == asked:
         return None
+    models.check_rest(owner, session.model)
     _solved[owner.session_uid] = asked
     if posing:
         session.move_all(motions)
@@ -73,6 +76,12 @@ def _on_change(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
 
 
 @persistent
+def _on_save(file: str, *_: object) -> None:
+    if file:
+        models.follow(Path(file))
+
+
+@persistent
 def _on_load(*_: object) -> None:
     models.forget()
     forget()
@@ -82,6 +91,7 @@ _HANDLERS = (
     ("depsgraph_update_post", _on_change),
     ("frame_change_post", _on_change),
     ("load_post", _on_load),
+    ("save_pre", _on_save),
 )
 
 

@@ -5,6 +5,8 @@ import numpy as np
 
 #: The shape key that shows the solved shape.
 RESULT = "Snapspace"
+#: Shape keys that were baked have names that begin with this.
+BAKED = "Baked"
 #: Vertices with at least this weight belong to a group's handle.
 WEIGHT = 0.5
 #: Scales along two axes that differ by less than this share are the same.
@@ -63,17 +65,29 @@ def handle_vertices(owner: bpy.types.Object) -> dict[str, np.ndarray]:
 
 
 def pose_keys(owner: bpy.types.Object) -> list[bpy.types.ShapeKey]:
-    """The shape keys that are poses: all but the basis and the solved shape."""
+    """The shape keys that are poses: all but the basis, the solved shape, and baked ones."""
     keys = owner.data.shape_keys
-    return [] if keys is None else [key for key in keys.key_blocks[1:] if key.name != RESULT]
+    ours = {RESULT, *(key.name for key in baked_keys(owner))}
+    return [] if keys is None else [key for key in keys.key_blocks[1:] if key.name not in ours]
+
+
+def baked_keys(owner: bpy.types.Object) -> list[bpy.types.ShapeKey]:
+    """The shape keys that were baked."""
+    keys = owner.data.shape_keys
+    return [] if keys is None else [key for key in keys.key_blocks if key.name.startswith(BAKED)]
 
 
 def result_key(owner: bpy.types.Object) -> bpy.types.ShapeKey:
-    """The shape key of the solved shape, made at rest if there is none."""
+    """The shape key of the solved shape, made at rest if there is none.
+
+    Baked keys show the same film, and are muted, so that they do not add up.
+    """
     if owner.data.shape_keys is None:
         owner.shape_key_add(name="Basis", from_mix=False)
     key = owner.data.shape_keys.key_blocks.get(RESULT)
     if key is None:
         key = owner.shape_key_add(name=RESULT, from_mix=False)
     key.value, key.mute = 1.0, False
+    for baked in baked_keys(owner):
+        baked.mute = True
     return key

@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import hashlib
+import shutil
 import tempfile
 from pathlib import Path
 from typing import Any
 
 import bpy
+import numpy as np
 
 import snapspace as ss
 
+from .mesh_data import rest_points
+
 #: Sessions by the model's file and its time of change.
 _sessions: dict[tuple[str, float], Any] = {}
+#: Vertices at rest that differ by more than this share of the diagonal were edited.
+_EDITED = 1e-4
 #: The newest model of an object whose computation is not over, by the object's session id.
 _growing: dict[int, Any] = {}
 
@@ -65,6 +71,31 @@ def session(owner: bpy.types.Object) -> Any:
             "compute it again"
         )
     return found
+
+
+def check_rest(owner: bpy.types.Object, model: ss.ReducedModel) -> None:
+    """ValueError if the rest shape was edited, whose changes a solved shape would take back."""
+    mesh = model.problem.mesh
+    change = rest_points(owner.data) - model.surface.vertices(mesh.vertices)
+    if np.abs(change).max() > _EDITED * mesh.diagonal:
+        raise ValueError(f"{owner.name} was edited after its model was made; compute it again")
+
+
+def follow(file: Path) -> None:
+    """Copies the models of all objects beside a .blend file that is about to be saved there."""
+    for owner in bpy.data.objects:
+        name = owner.snapspace.model
+        here = Path(bpy.path.abspath(name))
+        if not name or not here.is_file():
+            continue
+        if not name.startswith("//"):
+            if here.parent != Path(tempfile.gettempdir()):
+                continue  # the user's own choice
+            owner.snapspace.model = f"//{file.stem}-{bpy.path.clean_name(owner.name)}.snapspace"
+        there = file.parent / owner.snapspace.model[2:]
+        if there.resolve() != here.resolve():
+            there.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(here, there)
 
 
 def forget() -> None:

@@ -31,10 +31,9 @@ def bpy() -> Iterator[Any]:
 
 
 @pytest.fixture
-def owner(bpy: Any, tmp_path: Path) -> Any:
-    """A bar along x with the vertex groups foot and head, in a file that was saved."""
+def unsaved(bpy: Any) -> Any:
+    """A bar along x with the vertex groups foot and head."""
     bpy.ops.wm.read_homefile(use_empty=True)
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
     body = bar(8, 2, 2, length=LENGTH, width=1.0, height=1.0)
     used, faces = np.unique(body.surface, return_inverse=True)
     points = body.vertices[used]
@@ -49,4 +48,17 @@ def owner(bpy: Any, tmp_path: Path) -> Any:
         group.add(np.flatnonzero(chosen).tolist(), 1.0, "REPLACE")
     owner.snapspace.edge_length = 0.1
     owner.snapspace.error = 50.0
+    return owner
+
+
+@pytest.fixture
+def owner(bpy: Any, unsaved: Any, tmp_path: Path) -> Any:
+    """The bar in a file that was saved."""
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    return unsaved
+
+
+@pytest.fixture
+def computed(bpy: Any, owner: Any) -> Any:
+    assert bpy.ops.snapspace.compute() == {"FINISHED"}
     return owner

@@ -1,4 +1,4 @@
-"""What Blender draws of a mesh."""
+"""What Blender draws of a mesh, and the empties that move it."""
 
 from __future__ import annotations
 
@@ -14,3 +14,7 @@ def drawn(bpy: Any, owner: Any) -> np.ndarray:
     points = np.empty(3 * len(mesh.vertices), np.float32)
     mesh.vertices.foreach_get("co", points)
     return points.reshape(-1, 3).astype(float)
+
+
+def empties(owner: Any) -> dict[str, Any]:
+    return {child["snapspace_handle"]: child for child in owner.children}

@@ -10,7 +10,7 @@ import pytest
 
 import snapspace as ss
 
-from .drawn import drawn
+from .drawn import drawn, empties
 
 
 def result(owner: Any) -> np.ndarray:
@@ -19,16 +19,6 @@ def result(owner: Any) -> np.ndarray:
     points = np.empty(3 * len(key.data), np.float32)
     key.data.foreach_get("co", points)
     return points.reshape(-1, 3).astype(float)
-
-
-def empties(owner: Any) -> dict[str, Any]:
-    return {child["snapspace_handle"]: child for child in owner.children}
-
-
-@pytest.fixture
-def computed(bpy: Any, owner: Any) -> Any:
-    assert bpy.ops.snapspace.compute() == {"FINISHED"}
-    return owner
 
 
 def test_empties_stand_at_the_handles_and_the_shape_at_rest(bpy: Any, computed: Any) -> None:
