@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import warnings
 from codecs import BOM_UTF8
@@ -104,6 +105,27 @@ def test_normals_and_tangents_follow_an_affine_motion(tmp_path: Path, kind: str)
         expected = world @ (linear.T if old.kind == "tangent" else np.linalg.inv(linear))
         expected /= np.linalg.norm(expected, axis=1, keepdims=True)
         np.testing.assert_allclose(found, expected, atol=2e-6)
+
+
+def test_a_mirrored_node_turns_faces_round(tmp_path: Path) -> None:
+    """Blender writes negative scales as they are; the part was inside out (glTF 2.0, 3.7.4)."""
+    file = write_file(tmp_path, "gltf")
+    plain = open_surface(file)
+    document = json.loads(file.read_text(encoding="utf-8"))
+    document["nodes"][0]["scale"] = [1, -1, 1]
+    file.write_text(json.dumps(document), encoding="utf-8")
+    mirrored = open_surface(file)
+    assert [_volume(one) for one in (plain, mirrored)] == pytest.approx([1.0, 1.0])
+    uv = [
+        dict(zip(one.corners.tolist(), one.appearance.texture_coordinates.tolist(), strict=True))
+        for one in (plain, mirrored)
+    ]
+    assert uv[0] == uv[1], "they stay at their points"
+
+
+def _volume(surface: SurfaceFile) -> float:
+    a, b, c = (surface.vertices[surface.faces[:, k]] for k in range(3))
+    return float((np.cross(a, b) * c).sum() / 6.0)
 
 
 @pytest.mark.parametrize("kind", ["obj relative", "off", "ply ascii", "stl ascii"])

@@ -26,11 +26,11 @@ def gltf_appearance(data: bytes, layout: Layout) -> Appearance:
     materials: list[SurfaceMaterial] = []
     numbers: dict[int, int] = {}
     coordinates, colors, of_triangle = [], [], []
-    for mesh in mesh_transforms(file.json):
+    for mesh, transform in mesh_transforms(file.json).items():
         for primitive in primitives_of(file, mesh):
             attributes = primitive["attributes"]
             count = len(accessor(file, attributes["POSITION"]).offsets)
-            used = triangles_of(file, primitive, count).ravel()
+            used = triangles_of(file, primitive, count, transform).ravel()
             number = int(primitive.get("material", -1))
             about = file.json["materials"][number] if number >= 0 else {}
             if number not in numbers:

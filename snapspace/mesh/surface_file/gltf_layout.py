@@ -43,7 +43,7 @@ def _layout(data: bytes) -> Layout:
             begin, count = points.take(file, attributes["POSITION"])
             if not known:
                 transforms.append(np.broadcast_to(transform, (count, 3, 4)))
-            used = triangles_of(file, primitive, count).ravel()
+            used = triangles_of(file, primitive, count, transform).ravel()
             corners.append(begin + used)
             for name, block in directions.items():
                 first = -1
@@ -126,8 +126,20 @@ def primitives_of(file: GltfFile, mesh: int) -> list[dict[str, Any]]:
         raise ValueError(f"mesh {mesh} is incomplete") from None
 
 
-def triangles_of(file: GltfFile, primitive: dict[str, Any], count: int) -> NDArray[np.int64]:
-    """Triangles of a primitive as indices into its own points, (t, 3)."""
+def triangles_of(
+    file: GltfFile, primitive: dict[str, Any], count: int, transform: FloatArray
+) -> NDArray[np.int64]:
+    """Triangles of a primitive as indices into its own points, (t, 3).
+
+    A transform that mirrors turns them round, so that outward stays outward (glTF 2.0, 3.7.4).
+    """
+    found = _triangles(file, primitive, count)
+    with np.errstate(invalid="ignore"):  # numbers that are not finite are refused as positions
+        mirrors = np.linalg.det(transform[:, :3]) < 0
+    return found[:, ::-1] if mirrors else found
+
+
+def _triangles(file: GltfFile, primitive: dict[str, Any], count: int) -> NDArray[np.int64]:
     index = np.arange(count)
     if "indices" in primitive:
         found = accessor(file, primitive["indices"])
