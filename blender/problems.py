@@ -54,8 +54,8 @@ def posing_growths(
     """Better and better models of handles; ValueError for fewer than two handles."""
     if len(handles) < 2:
         raise ValueError(
-            f"the mesh has {len(handles)} vertex groups with vertices; at least two are needed, "
-            "and the first one stays at rest"
+            f"the mesh has {len(handles)} vertex groups with vertices of a weight of one half or "
+            "more; at least two are needed, and the first one stays at rest"
         )
     on_surface = ss.Handles(list(handles.values()), names=list(handles))
     inside = ss.handles_in_tets(on_surface, solid.mesh, solid.surface)

@@ -119,7 +119,18 @@ def test_shape_keys_blend_along_elastic_paths(bpy: Any, owner: Any) -> None:
 
 def test_one_group_is_refused(bpy: Any, owner: Any) -> None:
     owner.vertex_groups.remove(owner.vertex_groups["head"])
-    with pytest.raises(RuntimeError, match="1 vertex groups with vertices; at least two"):
+    with pytest.raises(RuntimeError, match=r"1 vertex groups with vertices .* at least two"):
+        bpy.ops.snapspace.compute()
+
+
+def test_groups_of_small_weights_are_told_which_are_needed(bpy: Any, owner: Any) -> None:
+    """As automatic weights of an armature are; the panel counts them as handles."""
+    for group in owner.vertex_groups:
+        members = [
+            v.index for v in owner.data.vertices if group.index in [g.group for g in v.groups]
+        ]
+        group.add(members, 0.4, "REPLACE")
+    with pytest.raises(RuntimeError, match=r"0 vertex groups .* a weight of one half or more"):
         bpy.ops.snapspace.compute()
 
 
