@@ -19,8 +19,9 @@ _SCRIPT = '''"""Shape keys made by Snapspace. Run it in Blender 4.2 or later:
 open it in the text editor and press Alt+P, or give it to `blender --python`.
 
 If the active object is the mesh that the model was made from, it gets the shape keys, and keeps its
-faces, UVs and materials; otherwise the only such mesh of the scene without shape keys. It may have
-been moved, scaled, and turned by right angles, as importers do; vertices are found by their places.
+faces, UVs and materials; otherwise the only such mesh of the scene without shape keys. It stands in
+the scene as it was, or was moved and scaled; or it was turned, with its vertices as they were in
+its file, or turned by right angles. Vertices are found by their places.
 If there is none, a new object is made, without UVs. A shape is the sum of the keys; values from -1
 to 1 are those of the training samples. Run again, the script replaces its keys.
 """
@@ -95,27 +96,32 @@ for number, place in enumerate(HOME):
 TREE.balance()
 
 
-def turned_upright(one):
-    """The turn that is right if the object stands as importers put it."""
-    here = np.array(one.matrix_world.to_quaternion().to_matrix())
-    return here.T @ np.array(Euler(UPRIGHT).to_matrix())
+def in_order(places):
+    same = places.shape == HOME.shape and np.abs(places - HOME).max() < CLOSE
+    return np.arange(len(HOME)) if same else None
+
+
+def nearest(places):
+    if not np.abs(places.max(axis=0) - HOME.max(axis=0)).max() < CLOSE:
+        return None
+    found = [TREE.find(place) for place in places]
+    same = max(distance for _, _, distance in found) < CLOSE
+    return np.array([number for _, number, _ in found]) if same else None
 
 
 def moves_for(one):
-    """What turns moves into those of the object, and whose move each vertex makes, or None."""
+    """What takes moves to those of the object, and whose move each vertex makes, or None."""
     if one is None or one.type != "MESH" or len(one.data.vertices) < 2:
         return None
-    points, size = in_unit_box(points_of(one))
-    if len(points) == len(HOME):
-        for turn in TURNS:
-            if np.abs(points @ turn - HOME).max() < CLOSE:
-                return size / SIZE * turn, np.arange(len(HOME))
-    for turn in [turned_upright(one), *TURNS]:
-        turned = points @ turn
-        if np.abs(turned.max(axis=0) - HOME.max(axis=0)).max() < CLOSE:
-            found = [TREE.find(place) for place in turned]
-            if max(distance for _, _, distance in found) < CLOSE:
-                return size / SIZE * turn, np.array([number for _, number, _ in found])
+    points = points_of(one)
+    upright = np.array(Euler(UPRIGHT).to_matrix())
+    as_it_stands = np.array(one.matrix_world)[:3, :3].T @ upright
+    for match in (in_order, nearest):
+        for turn in [as_it_stands, *TURNS]:
+            places, size = in_unit_box(points @ turn)
+            own = match(places)
+            if own is not None:
+                return size / SIZE * np.linalg.inv(turn), own
     return None
 
 
@@ -128,14 +134,14 @@ if fit is None:
     free = [one for one in meshes if not one.data.shape_keys and moves_for(one)]
     active = free[0] if len(free) == 1 else new_object()
     fit = moves_for(active)
-turn, own = fit
+back, own = fit
 if active.data.shape_keys is None:
     active.shape_key_add(name="Basis", from_mix=False)
 rest = points_of(active)
 blocks = active.data.shape_keys.key_blocks
 for name, moves in zip(KEYS, MOVES):
     key = blocks.get(name) or active.shape_key_add(name=name, from_mix=False)
-    key.data.foreach_set("co", (rest + moves[own] @ turn.T).astype(np.float32).ravel())
+    key.data.foreach_set("co", (rest + moves[own] @ back).astype(np.float32).ravel())
     key.slider_min, key.slider_max = -1.0, 1.0
     if name == {mean!r}:
         key.value = 1.0

@@ -43,12 +43,11 @@ class Mesh:
 
 
 class Object:
-    def __init__(self, name: str, mesh: Mesh, turn: Rotation | None = None) -> None:
+    def __init__(self, name: str, mesh: Mesh, world: np.ndarray | None = None) -> None:
         self.name, self.data, self.type = name, mesh, "MESH"
         self.rotation_euler = (0.0, 0.0, 0.0)
-        matrix = (Rotation.identity() if turn is None else turn).as_matrix()
-        quaternion = SimpleNamespace(to_matrix=lambda: matrix)
-        self.matrix_world = SimpleNamespace(to_quaternion=lambda: quaternion)
+        self.matrix_world = np.eye(4)
+        self.matrix_world[:3, :3] = np.eye(3) if world is None else world
 
     def shape_key_add(self, name: str, from_mix: bool) -> Any:
         if self.data.shape_keys is None:
@@ -109,11 +108,11 @@ class Scene:
     def _mode_set(self, mode: str) -> None:
         self.context.mode = mode
 
-    def add(self, points: Any, turn: Rotation | None = None) -> Object:
-        """A user's own mesh."""
+    def add(self, points: Any, world: np.ndarray | None = None) -> Object:
+        """A user's own mesh, and the matrix (3, 3) that puts it into the scene."""
         mesh = Mesh("own")
         mesh.vertices = Points(points)
-        self.objects.append(Object("own", mesh, turn))
+        self.objects.append(Object("own", mesh, world))
         return self.objects[-1]
 
     def run(self, path: Path) -> Object:

@@ -130,12 +130,25 @@ def test_a_body_that_fits_in_several_ways_is_taken_as_importers_put_it(
     of_vertices, of_object = (
         (UPRIGHT, Rotation.identity()) if turned == "vertices" else (Rotation.identity(), UPRIGHT)
     )
-    own = scene.add(of_vertices.apply(rest_of(posing_model)[order]), of_object)
+    own = scene.add(of_vertices.apply(rest_of(posing_model)[order]), of_object.as_matrix())
     path = write_blender(tmp_path / "bar.py", posing_model, mode_targets(posing_model), up="y")
     made = scene.run(path)
     assert made is own
     wanted = of_vertices.apply(posed(made, posing_model, 0)[order])
     np.testing.assert_allclose(made.shape(), wanted, atol=1e-5)
+
+
+def test_an_object_below_turned_and_mirroring_nodes_is_found(
+    lopsided: PosingModel, scene: Scene, tmp_path: Path
+) -> None:
+    """The file's transforms are in the model's vertices, and in Blender's objects."""
+    mirror = np.diag([-2.0, 2.0, 3.0]) @ Rotation.from_euler("y", 0.7).as_matrix()
+    own = scene.add(rest_of(lopsided)[::-1] @ np.linalg.inv(mirror).T, mirror)
+    scene.active.active = own
+    path = write_blender(tmp_path / "bar.py", lopsided, mode_targets(lopsided), up="z")
+    assert scene.run(path) is own
+    wanted = posed(own, lopsided, 0)[::-1]
+    np.testing.assert_allclose(own.shape() @ mirror.T, wanted, atol=1e-5)
 
 
 def test_another_mesh_of_as_many_vertices_is_left_alone(
