@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .arguments import as_path
 from .disk import atomic_file
 from .gltf import film_targets, still_shape, write_glb
 from .mesh import SURFACE_OUTPUTS, TET_OUTPUTS, EmbeddedSurface, solid_of, write_surface, write_tets
@@ -72,7 +73,7 @@ def write_animation(
     >>> write_animation("nod.gif", session.model, (session.vertices for _ in frames))
     """
     check_model(model, "write_animation", "give path, model, shapes")
-    target = Path(path)
+    target = as_path("write_animation", path, what="file or folder")
     if target.suffix.lower() in (".gif", ".mp4"):
         from .pictures import save_film
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 import operator
+import os
 from numbers import Integral, Real
+from pathlib import Path
 
 
 def require_count(who: str, name: str, value: int, *, at_least: int) -> int:
@@ -45,6 +47,23 @@ def is_number(value: object) -> bool:
 def is_whole(value: object) -> bool:
     """Whether it is a whole number, of Python or of NumPy."""
     return isinstance(value, Integral)
+
+
+def check_target(target_error: float) -> None:
+    """Raises ValueError unless a target error is a number between 0 and 1."""
+    if not (is_number(target_error) and 0 < target_error < 1):
+        raise ValueError(
+            f"the target error is {target_error!r}, but it must be between 0 and 1: it is relative "
+            "to the displacement"
+        )
+
+
+def as_path(who: str, path: str | os.PathLike[str], *, what: str = "file") -> Path:
+    """Return `path` as a Path, or raise a ValueError that names `who` and its type."""
+    try:
+        return Path(path)
+    except TypeError:
+        raise wrong_type(who, "path", path, f"give the name of a {what}") from None
 
 
 def wrong_type(who: str, name: str, value: object, cure: str) -> ValueError:

@@ -11,6 +11,9 @@ import numpy as np
 import pytest
 
 import snapspace as ss
+from snapspace.pictures import save_film, save_png
+
+KEYS = (ss.Key(0.0, {}),)
 
 #: The call, given a model and its snapshots, and the message.
 Call = Callable[[Any, Any], Any]
@@ -131,6 +134,42 @@ WRONG: dict[str, tuple[Call, str]] = {
         lambda m, s: ss.load(3),  # type: ignore[arg-type]
         "load: path is of type int; give the name of a .snapspace file",
     ),
+    "a session to save": (
+        lambda m, s: ss.save_model(m.session(), "bar.snapspace"),
+        "save_model: model is of type PosingSession; give session.model",
+    ),
+    "the path before the model to save": (
+        lambda m, s: ss.save_model("bar.snapspace", m),  # type: ignore[arg-type]
+        "save_model: model is of type str; give model, path",
+    ),
+    "a problem as samples": (
+        lambda m, s: ss.save_snapshots(s.problem, "bar.samples"),
+        "save_snapshots: snapshots is of type PosingProblem; give snapshots, path",
+    ),
+    "a session as glTF": (
+        lambda m, s: ss.write_glb("bar.glb", m.session(), ss.mode_targets(m)),
+        "write_glb: model is of type PosingSession; give session.model",
+    ),
+    "a session for Blender": (
+        lambda m, s: ss.write_blender("bar.py", m.session(), ss.mode_targets(m)),
+        "write_blender: model is of type PosingSession; give session.model",
+    ),
+    "a number as keys": (
+        lambda m, s: ss.Timeline("posing", 3),  # type: ignore[arg-type]
+        "Timeline: keys is of type int; give a list, such as [Key(0, state)]",
+    ),
+    "motions as keys": (
+        lambda m, s: ss.Timeline("posing", ({"head": 0},)),  # type: ignore[arg-type]
+        "Timeline: key 0 is of type dict; give Key(time, state)",
+    ),
+    "a motion as the state of a key": (
+        lambda m, s: ss.Timeline("posing", (ss.Key(0.0, [0, 0]),)),  # type: ignore[arg-type]
+        "Timeline: the state of key 0 is of type list; give motions by handle, or weights by pose",
+    ),
+    "a time in words": (
+        lambda m, s: ss.Timeline("posing", (ss.Key("1 s", {}),)),  # type: ignore[arg-type]
+        "Timeline: key 0 is at 1 s s, but times are 0 or more",
+    ),
     "the mass of arrays": (
         lambda m, s: ss.mass_matrix((s.problem.mesh.vertices, s.problem.mesh.tets)),  # type: ignore[arg-type]
         "mass_matrix: mesh is of type tuple; give a TetMesh or ShellMesh",
@@ -168,6 +207,56 @@ def test_a_wrong_argument_is_refused_in_one_line(
         call(posing_model, posing_snapshots)
     assert "\n" not in str(told.value)
     assert not list(tmp_path.iterdir())
+
+
+#: Every function that takes a path, given a model, its snapshots and something in its place.
+PATHS: dict[str, Callable[[Any, Any, Any], Any]] = {
+    "Checkpoint": lambda m, s, path: ss.Checkpoint(path),
+    "SurfaceFile.write": lambda m, s, path: ss.SurfaceFile("a.off", b"").write(path, []),
+    "export_html": lambda m, s, path: ss.export_html(m, path),
+    "export_packed": lambda m, s, path: ss.export_packed(m, path),
+    "load": lambda m, s, path: ss.load(path),
+    "load_blending": lambda m, s, path: ss.load_blending(path),
+    "load_posing": lambda m, s, path: ss.load_posing(path),
+    "load_snapshots": lambda m, s, path: ss.load_snapshots(path, s.problem),
+    "open_surface": lambda m, s, path: ss.open_surface(path),
+    "read_problem": lambda m, s, path: ss.read_problem(path),
+    "read_problem_surface": lambda m, s, path: ss.read_problem_surface(path, s.problem.mesh),
+    "read_surface": lambda m, s, path: ss.read_surface(path),
+    "read_tets": lambda m, s, path: ss.read_tets(path),
+    "read_timeline": lambda m, s, path: ss.read_timeline(path),
+    "save_film": lambda m, s, path: save_film(path, [], m.surface.faces),
+    "save_model": lambda m, s, path: m.save(path),
+    "save_png": lambda m, s, path: save_png(path, []),
+    "save_snapshots": lambda m, s, path: ss.save_snapshots(s, path),
+    "write_animation": lambda m, s, path: ss.write_animation(path, m, []),
+    "write_blender": lambda m, s, path: ss.write_blender(path, m, ss.mode_targets(m)),
+    "write_glb": lambda m, s, path: ss.write_glb(path, m, ss.mode_targets(m)),
+    "write_surface": lambda m, s, path: ss.write_surface(path, m.session().vertices, []),
+    "write_tets": lambda m, s, path: ss.write_tets(path, s.problem.mesh),
+    "write_timeline": lambda m, s, path: ss.write_timeline(path, ss.Timeline("posing", KEYS)),
+}
+
+
+@pytest.mark.parametrize("path", [3, None, b"bar.obj", ["bar.obj"]])
+@pytest.mark.parametrize("who", PATHS)
+def test_what_is_no_path_is_refused_by_name(
+    posing_model: ss.PosingModel, posing_snapshots: ss.Snapshots, who: str, path: Any
+) -> None:
+    message = f"{who}: path is of type {type(path).__name__}; give the name of a "
+    with pytest.raises(ValueError, match=re.escape(message)):
+        PATHS[who](posing_model, posing_snapshots, path)
+
+
+def test_every_function_with_a_path_is_among_them() -> None:
+    functions = {name: getattr(ss, name) for name in ss.__all__ if callable(getattr(ss, name))}
+    taking = {name for name, function in functions.items() if takes_path(function)}
+    assert taking <= set(PATHS)
+
+
+def takes_path(function: Any) -> bool:
+    given = getattr(function, "__annotations__", {}).items()
+    return any(name != "return" and "Path" in str(kind) for name, kind in given)
 
 
 @pytest.mark.parametrize("count", [True, np.int64(1)])

@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import as_path
 from ..disk.atomic_file import atomic_file
 from ..mesh import EmbeddedSurface
-from ..reduction import ReducedModel
+from ..reduction import ReducedModel, check_model
 from .morph_targets import MorphTargets
 
 _SCRIPT = '''"""Shape keys made by Snapspace. Run it in Blender 4.2 or later:
@@ -187,7 +188,8 @@ def write_blender(
     ValueError
         For an unknown extension, or if the file cannot be written.
     """
-    path = Path(path)
+    check_model(model, "write_blender", "give path, model, morphs")
+    path = as_path("write_blender", path)
     if path.suffix.lower() != ".py":
         raise ValueError(f"{path}: the name of a script for Blender must end in .py")
     corners, starts = _polygons(model.surface)

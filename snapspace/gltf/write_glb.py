@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import as_path
 from ..disk import atomic_file
-from ..reduction import ReducedModel
+from ..reduction import ReducedModel, check_model
 from .glb_file import GlbFile
 from .glb_materials import own_materials, plain_material
 from .glb_mesh import glb_mesh
@@ -71,7 +72,8 @@ def write_glb(
     MeshNotice
         Of materials and textures that are missing or damaged, or are no PNG or JPEG.
     """
-    target = Path(path)
+    check_model(model, "write_glb", "give path, model, morphs")
+    target = as_path("write_glb", path)
     if target.suffix.lower() != ".glb":
         raise ValueError(f"write_glb: {target} must end in .glb")
     axis = model.up if up is None else up

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable
 from pathlib import Path
 
 from ..input_error import InputError
 
 
-def existing_file(path: str | os.PathLike[str], *, known: Iterable[str]) -> Path:
+def existing_file(file: Path, *, known: Iterable[str]) -> Path:
     """The path as given; ValueError unless it is a file with one of the known extensions."""
-    file = Path(path)
     if file.is_dir():
         raise InputError(file, "this is a folder; a file is needed")
     if file.suffix or file.exists():
@@ -21,9 +19,8 @@ def existing_file(path: str | os.PathLike[str], *, known: Iterable[str]) -> Path
     return file
 
 
-def writable_path(path: str | os.PathLike[str], *, known: Iterable[str]) -> Path:
+def writable_path(file: Path, *, known: Iterable[str]) -> Path:
     """The path as given; ValueError unless it can become a file with a known extension."""
-    file = Path(path)
     _check_extension(file, known)
     if file.is_dir():
         raise InputError(file, "this is a folder; give a file name")

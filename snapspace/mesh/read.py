@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..arguments import as_path
 from ..input_error import located
 from ..notice import Notice, notify
 from .arrays import FloatArray, IndexArray, as_indices, as_points
@@ -53,7 +54,7 @@ def read_tets(path: str | os.PathLike[str], *, repair: bool = False) -> TetMesh:
         other solid cells or quadratic tets, or its mesh is not valid (see `TetMesh`). The
         message is one line that begins with the path.
     """
-    file = existing_file(path, known=_READERS)
+    file = existing_file(as_path("read_tets", path), known=_READERS)
     with located(file):
         content = _READERS[file.suffix.lower()](file)
         tets = _linear_tets(content)
@@ -73,7 +74,7 @@ def read_tet_arrays(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArra
     For poses, whose tets may be inverted. Raises ValueError as `read_tets` does for the file, and
     for coordinates that are not finite and indices out of range.
     """
-    file = existing_file(path, known=_READERS)
+    file = existing_file(as_path("read_tets", path), known=_READERS)
     with located(file):
         content = _READERS[file.suffix.lower()](file)
         vertices = as_points(content.vertices, who="read_tets")

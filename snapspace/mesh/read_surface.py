@@ -6,6 +6,7 @@ import os
 
 import numpy as np
 
+from ..arguments import as_path
 from ..input_error import located
 from .arrays import FloatArray, IndexArray
 from .input_path import existing_file
@@ -43,7 +44,7 @@ def read_surface(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArray]:
     --------
     open_surface : keeps all that the file holds besides positions, to write it again.
     """
-    file = existing_file(path, known=READERS)
+    file = existing_file(as_path("read_surface", path), known=READERS)
     suffix = file.suffix.lower()
     with located(file):
         data = file.read_bytes()

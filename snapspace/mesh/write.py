@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import as_path
 from ..disk.atomic_file import atomic_file
 from .arrays import FloatArray, IndexArray, as_indices, as_points
 from .input_path import writable_path
@@ -60,7 +61,7 @@ def write_tets(
         For an unknown extension, a folder that does not exist or cannot be written, wrong shapes,
         or values that are not finite. An existing file at `path` then stays as it was.
     """
-    file = writable_path(path, known=_TET_FORMATS)
+    file = writable_path(as_path("write_tets", path), known=_TET_FORMATS)
     points = _shape_to_write(mesh, vertices)
     data = {
         name: _checked_data(name, values, len(points), file.suffix.lower())
@@ -100,7 +101,7 @@ def write_surface(path: str | os.PathLike[str], vertices: ArrayLike, faces: Arra
         coordinates that are not finite, an index out of range, or no faces. An existing file at
         `path` then stays as it was.
     """
-    file = writable_path(path, known=_SURFACE_WRITERS)
+    file = writable_path(as_path("write_surface", path), known=_SURFACE_WRITERS)
     points = as_points(vertices, who="write_surface")
     triangles = as_indices(faces, corners=3, who="write_surface", what="faces")
     if not len(triangles):

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
 from dataclasses import replace
 from pathlib import Path
 
-from ..arguments import wrong_type
+from ..arguments import as_path
 from ..input_error import one_line
 from ..mesh import ShellMesh, file_kind
-from ..reduction import InterpolationModel, PosingModel, ReducedModel
+from ..reduction import InterpolationModel, PosingModel, ReducedModel, check_model
 from . import (
     error_estimator,
     interpolation,
@@ -65,7 +64,8 @@ def save_model(model: ReducedModel, path: str | Path) -> Path:
     TypeError
         For a model that is neither a PosingModel nor an InterpolationModel.
     """
-    path = Path(path)
+    check_model(model, "save_model", "give model, path")
+    path = as_path("save_model", path)
     check_model_path(path)
     if isinstance(model, PosingModel):
         kind = POSING if model.cubature is None else CUBATURE
@@ -106,9 +106,7 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
         not known, or if an array is missing, has the wrong type or size or a number that is not
         finite. The message names the file and the cure.
     """
-    if not isinstance(path, str | os.PathLike):
-        raise wrong_type("load", "path", path, "give the name of a .snapspace file")
-    path = Path(path)
+    path = as_path("load", path, what=f"{SUFFIX} file")
     if not path.is_file():
         raise ValueError(f"{path}: there is no such model file; `snapspace build` makes one")
     try:

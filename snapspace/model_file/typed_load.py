@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ..arguments import as_path
 from ..reduction import InterpolationModel, PosingModel
-from .model_file import load
+from .model_file import SUFFIX, load
 
 
 def load_posing(path: str | Path) -> PosingModel:
@@ -16,7 +17,7 @@ def load_posing(path: str | Path) -> PosingModel:
     ValueError
         As for `load`, and for a model that blends poses.
     """
-    model = load(path)
+    model = load(as_path("load_posing", path, what=f"{SUFFIX} file"))
     if not isinstance(model, PosingModel):
         raise ValueError(
             f"{path}: this model blends poses and has no handles; read it with load_blending"
@@ -32,7 +33,7 @@ def load_blending(path: str | Path) -> InterpolationModel:
     ValueError
         As for `load`, and for a model with handles.
     """
-    model = load(path)
+    model = load(as_path("load_blending", path, what=f"{SUFFIX} file"))
     if not isinstance(model, InterpolationModel):
         raise ValueError(
             f"{path}: this model has handles and no poses to blend; read it with load_posing"

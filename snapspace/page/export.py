@@ -7,6 +7,7 @@ import html
 import zlib
 from pathlib import Path
 
+from ..arguments import as_path
 from ..disk.atomic_file import atomic_file
 from ..reduction import ReducedModel, check_model
 from .pack import packed, packed_name
@@ -83,7 +84,7 @@ def export_html(
         For something else than a model, an unknown extension, or if the file cannot be written.
     """
     check_model(model, "export_html", "give model, path")
-    path = Path(path)
+    path = as_path("export_html", path)
     if path.suffix.lower() not in SUFFIXES:
         raise ValueError(f"{path}: the name of a page must end in {' or '.join(SUFFIXES)}")
     content = page_with_model(model, title=path.stem if title is None else title, up=up)
@@ -121,7 +122,7 @@ def export_packed(
         For something else than a model, an unknown extension, or if the file cannot be written.
     """
     check_model(model, "export_packed", "give model, path")
-    path = Path(path)
+    path = as_path("export_packed", path)
     if path.suffix.lower() != ".snapspace":
         raise ValueError(f"{path}: the name of a packed model must end in .snapspace")
     content = packed(model, name=path.stem if title is None else title, up=up)

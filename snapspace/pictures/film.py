@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import as_path
 from ..disk import atomic_file
 from ..extras import need_extra
 from .backdrop import backdrop, to_bytes
@@ -130,7 +131,7 @@ def _write_movie(
 
 
 def _checked_path(path: str | os.PathLike[str]) -> Path:
-    target = Path(path)
+    target = as_path("save_film", path)
     if target.suffix.lower() not in FILMS:
         raise ValueError(
             f"save_film: {target} has an unknown extension; known are {', '.join(FILMS)}"

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..arguments import as_path
 from ..disk import atomic_file
 from ..extras import need_extra
 
@@ -38,7 +39,7 @@ def save_png(path: str | os.PathLike[str], image: Any) -> Path:
         If the extension is not ``.png``, the folder does not exist, `image` is not an image, or the
         file cannot be written.
     """
-    target = Path(path)
+    target = as_path("save_png", path)
     if target.suffix.lower() != ".png":
         raise ValueError(f"save_png: {target} does not end in .png; name it {target.stem}.png")
     if not target.parent.is_dir():

@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+from ..arguments import as_path
 from ..filling import stuff_surface
 from ..mesh import (
     Body,
@@ -76,7 +77,7 @@ def read_problem(
         For a missing file, text that is not JSON, a missing, unknown or mistyped entry, or a
         surface that `stuff_surface` cannot fill; the message names the file and the entry.
     """
-    path = Path(path)
+    path = as_path("read_problem", path)
     content = _load(path)
     with within(path):
         if mesh is None:
@@ -106,7 +107,7 @@ def read_problem_surface(path: str | Path, mesh: Body) -> EmbeddedSurface | None
         If a file cannot be read, or the surface does not belong to the mesh: a vertex is farther
         from it than its diagonal.
     """
-    path = Path(path)
+    path = as_path("read_problem_surface", path)
     content = _load(path)
     if "surface" not in content:
         return None
@@ -173,33 +174,30 @@ def _check_kind(path: Path) -> None:
         )
 
 
-def problem_surface_file(path: str | Path) -> Path | None:
+def problem_surface_file(path: Path) -> Path | None:
     """The surface that a problem file names in place of tets; None if it names tets.
 
     ValueError as for `read_problem`, and if it names neither.
     """
-    path = Path(path)
     content = _load(path)
     with within(path):
         return _surface_in_place_of_tets(path, content)
 
 
-def check_problem(path: str | Path) -> None:
+def check_problem(path: Path) -> None:
     """ValueError for mistakes in a problem of a solid that do not depend on its mesh.
 
     `read_problem` finds them, and others, once there is a mesh; making one may take minutes.
     """
-    path = Path(path)
     with within(path):
         check_entries(_load(path))
 
 
-def problem_thickness(path: str | Path) -> Thickness | None:
+def problem_thickness(path: Path) -> Thickness | None:
     """The thickness of the shell that a problem file describes; None for a solid.
 
     ValueError as for `read_problem`.
     """
-    path = Path(path)
     with within(path):
         return shell_thickness(_load(path))
 

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import as_path
 from ..disk import flushed_folder
 from ..notice import Notice
 from ..problem import Problem
@@ -66,7 +67,7 @@ class Checkpoint:
     """
 
     def __init__(self, folder: str | Path) -> None:
-        self.folder = Path(folder)
+        self.folder = as_path("Checkpoint", folder, what="folder")
 
     @classmethod
     def beside(cls, output: Path, key: str) -> Checkpoint:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from safetensors import SafetensorError, safe_open
 
+from ..arguments import as_path, wrong_type
 from ..disk.atomic_file import atomic_file
 from ..disk.safetensors_bytes import safetensors_bytes
 from ..displacements import DisplacementRows
@@ -48,7 +49,10 @@ def save_snapshots(snapshots: Snapshots, path: str | os.PathLike[str]) -> Path:
     ValueError
         For an unknown extension, or if the file cannot be written.
     """
-    target = writable_path(path, known=[SAMPLES_SUFFIX])
+    if not isinstance(snapshots, Snapshots):
+        cure = "give snapshots, path, such as those of solve_snapshots"
+        raise wrong_type("save_snapshots", "snapshots", snapshots, cure)
+    target = writable_path(as_path("save_snapshots", path), known=[SAMPLES_SUFFIX])
     arrays = {
         "parameters": np.ascontiguousarray(snapshots.parameters, "<f8"),
         "displacements": np.ascontiguousarray(snapshots.displacements.array(), "<f8"),
@@ -81,7 +85,7 @@ def load_snapshots(path: str | os.PathLike[str], problem: Problem) -> Snapshots:
         If there is no such file, it is damaged or of another kind, or its samples are of another
         problem, with another mesh, material or domain, or other handles or poses.
     """
-    file = existing_file(path, known=[SAMPLES_SUFFIX])
+    file = existing_file(as_path("load_snapshots", path), known=[SAMPLES_SUFFIX])
     arrays, header = _read(file)
     if header["fingerprint"] != problem.fingerprint:
         raise ValueError(

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import floor, isfinite
 from typing import Any
+
+from ..arguments import is_number, wrong_type
 
 #: How the time from a key to the next is used: slowly at both ends, evenly, or not at all.
 EASINGS = ("smooth", "linear", "hold")
@@ -37,8 +39,8 @@ class Timeline:
     keys : one or more, with increasing times
     loop : bool, default False; whether players begin again at the end
 
-    ValueError for an unknown kind or easing, no keys, and times that are negative, not finite or
-    not increasing.
+    ValueError for an unknown kind or easing, keys of another type, no keys, and times that are
+    negative, not finite or not increasing.
     """
 
     kind: str
@@ -48,10 +50,17 @@ class Timeline:
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
             raise ValueError(f"Timeline: unknown kind '{self.kind}'; known are {', '.join(KINDS)}")
+        if not isinstance(self.keys, Sequence):
+            raise wrong_type("Timeline", "keys", self.keys, "give a list, such as [Key(0, state)]")
         if not self.keys:
             raise ValueError("Timeline: there are no keys, but at least one is needed")
         for number, key in enumerate(self.keys):
-            if not (isfinite(key.time) and key.time >= 0.0):
+            if not isinstance(key, Key):
+                raise wrong_type("Timeline", f"key {number}", key, "give Key(time, state)")
+            if not isinstance(key.state, Mapping):
+                cure = "give motions by handle, or weights by pose"
+                raise wrong_type("Timeline", f"the state of key {number}", key.state, cure)
+            if not (is_number(key.time) and isfinite(key.time) and key.time >= 0.0):
                 raise ValueError(
                     f"Timeline: key {number} is at {key.time} s, but times are 0 or more"
                 )

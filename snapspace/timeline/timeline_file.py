@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arguments import wrong_type
+from ..arguments import as_path, wrong_type
 from ..disk import atomic_file
 from ..mesh.input_path import existing_file
 from ..problem.json_entries import as_list, as_number, as_object, as_text, within
@@ -34,7 +34,7 @@ def read_timeline(path: str | os.PathLike[str]) -> Timeline:
     ValueError
         For a file that is missing, too large or no timeline; the message names the entry.
     """
-    file = existing_file(path, known=(".json",))
+    file = existing_file(as_path("read_timeline", path), known=(".json",))
     with within(file):
         if file.stat().st_size > LARGEST:
             raise ValueError(f"a timeline has at most {LARGEST // 2**20} MB")
@@ -72,7 +72,7 @@ def write_timeline(path: str | os.PathLike[str], timeline: Timeline) -> Path:
         "loop": timeline.loop,
         "keys": keys,
     }
-    target = Path(path)
+    target = as_path("write_timeline", path)
     with atomic_file(target) as temporary:
         temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
     return target

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...arguments import as_path
 from ...disk.atomic_file import atomic_file
 from ...input_error import located
 from ..arrays import FloatArray, IndexArray, as_indices, as_points
@@ -185,7 +186,7 @@ class SurfaceFile:
         ValueError also for a path with another extension, or one that cannot be written; an
         existing file then stays as it was.
         """
-        file = writable_path(path, known=(self.suffix,))
+        file = writable_path(as_path("SurfaceFile.write", path), known=(self.suffix,))
         with located(file):
             content = self.with_vertices(vertices)
         with atomic_file(file) as temporary:
@@ -249,7 +250,7 @@ def open_surface(path: str | os.PathLike[str]) -> SurfaceFile:
     >>> spot = open_surface("spot.obj")
     >>> spot.write("twice.obj", 2.0 * spot.vertices)
     """
-    file = existing_file(path, known=READERS)
+    file = existing_file(as_path("open_surface", path), known=READERS)
     with located(file):
         data = file.read_bytes()
         if file.suffix.lower() == ".gltf":
