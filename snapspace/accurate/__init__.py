@@ -1,7 +1,7 @@
 """Models of a wanted accuracy: samples and dimension follow from measured errors."""
 
 from .accurate_model import AccurateModel, accurate_model
-from .checks import check_budget, check_most, check_target
+from .checks import check_budget, check_most
 from .growing_models import Growth, growing_models
 from .plan import BLENDS, MOTIONS, plan_of, usual_most_samples
 from .step import Step
@@ -15,7 +15,6 @@ __all__ = [
     "accurate_model",
     "check_budget",
     "check_most",
-    "check_target",
     "growing_models",
     "plan_of",
     "usual_most_samples",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arguments import is_number
 from ..problem import InterpolationProblem, PosingProblem
 
 #: Fewest samples, and fewest held-out ones among them.
@@ -17,15 +16,6 @@ def check_problem(problem: object, who: str) -> None:
         raise ValueError(
             f"{who}: got a {type(problem).__name__}, but needs a problem, such as "
             "PosingProblem(mesh, handles, domain=box) or InterpolationProblem(poses)"
-        )
-
-
-def check_target(target_error: float) -> None:
-    """Raises ValueError unless a target error is a number between 0 and 1."""
-    if not (is_number(target_error) and 0 < target_error < 1):
-        raise ValueError(
-            f"the target error is {target_error!r}, but it must be between 0 and 1: it is relative "
-            "to the displacement"
         )
 
 

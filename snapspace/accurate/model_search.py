@@ -7,13 +7,14 @@ import time
 from collections.abc import Callable, Iterator
 from functools import partial
 
+from ..arguments import check_target
 from ..interruptible import begin_abandonable
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import InterpolationModel, PosingModel, reduce
 from ..snapshots import Snapshots
 from ..subspace import AffineSubspace
-from .checks import check_budget, check_most, check_target
+from .checks import check_budget, check_most
 from .dimension_search import DimensionSearch
 from .early_parts import make_early_parts
 from .growing_samples import GrowingSamples

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import click
 
-from ..accurate import MOTIONS, check_budget, check_target
+from ..accurate import MOTIONS, check_budget
+from ..arguments import check_target
 from ..filling import SurfaceFilling
 from ..model_file import check_model_path, load
 from ..problem import is_quartic

@@ -13,7 +13,8 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
-from ..accurate import BLENDS, check_budget, check_target
+from ..accurate import BLENDS, check_budget
+from ..arguments import check_target
 from ..cubature import FEWEST_BLENDS
 from ..fitting import DEVIATION, PoseFit, check_deviation
 from ..mesh import write_tets

@@ -2,13 +2,12 @@
 
 from .batch_checkpoints import batch_checkpoint, finished_samples, greedy_key
 from .error_estimates import estimated_errors
-from .greedy_snapshots import BATCH, CANDIDATES, check_target, greedy_snapshots
+from .greedy_snapshots import BATCH, CANDIDATES, greedy_snapshots
 
 __all__ = [
     "BATCH",
     "CANDIDATES",
     "batch_checkpoint",
-    "check_target",
     "estimated_errors",
     "finished_samples",
     "greedy_key",

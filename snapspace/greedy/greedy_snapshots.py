@@ -7,7 +7,9 @@ from concurrent.futures import Executor
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import check_target, require_count
 from ..displacements import SnapshotGram
+from ..input_error import located
 from ..problem import InterpolationProblem, PosingProblem
 from ..sampling import sample
 from ..snapshots import (
@@ -102,7 +104,9 @@ def greedy_snapshots(
     the samples, so samples spread over the whole domain are best for the mean over the domain.
     """
     _check(problem, known, count=count, dimension=dimension, batch=batch, candidates=candidates)
-    check_target(target)
+    if target is not None:
+        with located("greedy_snapshots"):
+            check_target(target)
     options = options or SolverOptions()
     so_far = SolvedSoFar(problem, known, dimension)
     batch_progress = BatchProgress(progress, count) if progress else None
@@ -134,21 +138,11 @@ def greedy_snapshots(
     return so_far.result()
 
 
-def check_target(target: float | None) -> None:
-    """Raises ValueError unless the target is None or between 0 and 1."""
-    if target is not None and not 0.0 < target < 1.0:
-        raise ValueError(
-            f"greedy_snapshots: the target error is {target}, but it must be between 0 and 1; it "
-            "is relative to the displacement"
-        )
-
-
 def _check(
     problem: PosingProblem | InterpolationProblem, known: Snapshots | None, **numbers: int
 ) -> None:
     for name, value in numbers.items():
-        if value < 1:
-            raise ValueError(f"greedy_snapshots: {name} is {value}, but must be at least 1")
+        require_count("greedy_snapshots", name, value, at_least=1)
     if known is not None:
         known.check_of(problem, "greedy_snapshots")
 

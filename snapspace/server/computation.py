@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..accurate import Growth, check_most, check_target, growing_models
+from ..accurate import Growth, check_most, growing_models
+from ..arguments import check_target
 from ..mesh import EmbeddedSurface
 from ..problem import PosingProblem
 from ..reduction import PosingModel

@@ -189,6 +189,7 @@ def test_a_path_between_two_poses_has_few_directions() -> None:
         ({"dimension": 0}, "dimension is 0, but must be at least 1"),
         ({"target": 0.0}, "the target error is 0.0, but it must be between 0 and 1"),
         ({"target": float("nan")}, "the target error is nan"),
+        ({"target": "0.1"}, "greedy_snapshots: the target error is '0.1', but"),
         ({"seed": -1}, "the seed is -1"),
     ],
 )
