@@ -182,6 +182,7 @@ def interpolate(
     print_fits(pose_set.fits)
     problem = InterpolationProblem(pose_set.poses, material=material, extrapolation=extrapolation)
     if problem.spread <= 1e-10 * problem.mesh.diagonal:
+        cache.remove()
         raise ValueError(
             "all poses are equal up to rigid motions, so there is nothing to blend; poses must "
             "differ by more than a rigid motion"

@@ -126,3 +126,4 @@ def test_equal_surfaces_are_refused(run: Run, tmp_path: Path) -> None:
     result = run("interpolate", rest, copy, *words, "-o", tmp_path / "m.snapspace")
     assert result.code == 2
     assert "poses must differ by more than a rigid motion" in result.err
+    assert not list(tmp_path.glob("m.snapspace*"))  # nor the folder of fitted poses
