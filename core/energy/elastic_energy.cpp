@@ -1,5 +1,7 @@
 #include "energy/elastic_energy.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -26,23 +28,34 @@ void star_stresses(const VertexStars& stars, int count, const std::int32_t* whic
   }
 }
 
+double largest_force(const RestTet& tet, double stiffness) {
+  double largest = 0.0;
+  for (const auto& row : tet.inverse_edges)
+    for (const double entry : row) largest = std::max(largest, std::abs(entry));
+  return stiffness * tet.volume * largest;
+}
+
 }  // namespace
 
 ElasticEnergy::ElasticEnergy(RestShape shape, MaterialField field)
-    : rest(std::move(shape)), material(std::move(field)), negligible_(0.0) {
+    : rest(std::move(shape)), material(std::move(field)), force_unit_(1.0), negligible_(0.0) {
   if (!material.fits(rest.tets.size()))
     throw std::invalid_argument("the material has moduli for a different number of tets");
   const TetMaterial view = material.view();
   const int count = material_moduli(view.kind);
   moduli_.resize(rest.tets.size() * count);
   lame_.resize(2 * rest.tets.size());
+  double largest = 0.0;
+  for (int t = 0; t < tets(); ++t)
+    largest = std::max(largest, largest_force(rest.tets[t], view.small_strains(t).stiffness()));
+  if (largest > 0.0 && std::isfinite(largest)) force_unit_ = std::ldexp(1.0, std::ilogb(largest));
   for (int t = 0; t < tets(); ++t) {
     const double volume = rest.tets[t].volume;
     scale_moduli(view.kind, view.of(t), volume, &moduli_[t * std::size_t(count)]);
     const Lame lame = view.small_strains(t);
-    lame_[2 * t] = volume * lame.lam;
-    lame_[2 * t + 1] = volume * lame.mu;
-    negligible_ += 1e-24 * volume * lame.mu;
+    lame_[2 * t] = volume * lame.lam / force_unit_;
+    lame_[2 * t + 1] = volume * lame.mu / force_unit_;
+    negligible_ += kNegligibleStrain * kNegligibleStrain * volume * lame.mu;
   }
   single_moduli_.assign(moduli_.begin(), moduli_.end());
   if (is_of_stars(view.kind)) stars.emplace(rest, view, material.hats());

@@ -8,6 +8,7 @@
 
 #include "element/tet.h"
 #include "energy/material_field.h"
+#include "energy/negligible_strain.h"
 #include "energy/vertex_stars.h"
 #include "mesh/rest_shape.h"
 #include "mesh/sweep.h"
@@ -97,9 +98,14 @@ class ElasticEnergy {
   /// [Bergou, Wardetzky, Harmon, Zorin, Grinspun 2006]. Positive semi-definite.
   [[nodiscard]] Eigen::SparseMatrix<double> scalar_matrix() const;
 
-  /// Energy of a strain of 1e-12 everywhere. Smaller decreases count as zero: where the minimum of
-  /// an objective is zero, a tolerance relative to it can never be met.
+  /// Energy of a strain of kNegligibleStrain everywhere. Smaller decreases count as zero: where the
+  /// minimum of an objective is zero, a tolerance relative to it can never be met.
   [[nodiscard]] double negligible() const { return negligible_; }
+
+  /// A power of two near the largest force of an element at a strain of one. In single precision
+  /// forces are computed in this unit: in units of length that are far from the body's size, volume
+  /// times modulus leaves its range where forces do not. No digit changes.
+  [[nodiscard]] double force_unit() const { return force_unit_; }
 
   /// Number of elements with det F <= 0; none in a shell, which has no inside.
   [[nodiscard]] int inverted_tets(const double* u) const;
@@ -116,7 +122,8 @@ class ElasticEnergy {
 
   StreamedVector<double> moduli_;        // of each tet, times its volume
   StreamedVector<float> single_moduli_;  // the same in single precision
-  StreamedVector<double> lame_;          // lam and mu of small strains, times volume
+  double force_unit_;
+  StreamedVector<double> lame_;  // lam and mu of small strains, times volume, by the force unit
   double negligible_;
 };
 

@@ -52,6 +52,8 @@ void ElasticEnergy::rest_hessian_product(const Real* v, Real* product) const {
     }
     scatter_stress(tet, P, product);
   }
+  const Real unit(static_cast<T>(force_unit_));
+  for (int i = 0; i < 3 * rest.vertex_count; ++i) product[i] *= unit;
 }
 
 template <class Real>

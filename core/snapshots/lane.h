@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "energy/negligible_strain.h"
 #include "snapshots/line_search.h"
 #include "snapshots/sample_queue.h"
 #include "snapshots/sample_seed.h"
@@ -120,8 +121,20 @@ struct Lane {
   /// single precision, and their digits do not change.
   void accept_norm(double gradient_norm) {
     norm = gradient_norm;
-    if (norm > 0.0 && std::isfinite(norm))
-      scale = std::ldexp(1.0, std::clamp(std::ilogb(norm), -100, 100));
+    scale_near(norm);
+  }
+  /// A lane of an objective with this negligible energy. Before a norm is known, the scale is near
+  /// the root of the energy of a strain of one: the gradient times its image under A^-1 is an
+  /// energy, which would leave the range in units far from the body's size.
+  [[nodiscard]] static Lane expecting(double negligible) {
+    Lane lane;
+    lane.scale_near(std::sqrt(negligible) / kNegligibleStrain);
+    return lane;
+  }
+
+  void scale_near(double size) {
+    if (size > 0.0 && std::isfinite(size))
+      scale = std::ldexp(1.0, std::clamp(std::ilogb(size), -100, 100));
   }
 
   /// Whether the solution is estimated to be near: as far as a window of steps as long as the last

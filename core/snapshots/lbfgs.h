@@ -131,7 +131,7 @@ class LaneLbfgs {
   /// The vectors keep the data of the lane's last sample: a fresh lane steps by zero, and its
   /// memory has no weight. All of these data are finite.
   void load(int index, Sample sample) {
-    Lane& lane = lanes_[index] = Lane{};
+    Lane& lane = lanes_[index] = Lane::expecting(objective_->negligible());
     lane.fresh = true;
     lane.begin = std::chrono::steady_clock::now();
     trial_outcomes_[index] = TrialOutcome::refused;

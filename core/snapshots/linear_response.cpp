@@ -1,6 +1,7 @@
 #include "snapshots/linear_response.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "memory/scratch.h"
 #include "simd/lanes.h"
@@ -31,6 +32,17 @@ ResponseSums quotient(ResponseSums a, ResponseSums b) {
   for (int lane = 0; lane < kLanes; ++lane)
     if (b[lane] > 0.0) result.set(lane, a[lane] / b[lane]);
   return result;
+}
+
+/// A power of two near the largest force of each input, by which its forces are divided and its
+/// response is multiplied. The energies of unit motions leave single precision in units of length
+/// that are far from the body's size; no digit changes.
+double unit_of(const PosingSystem& system, const double* input) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < system.pinned.size(); ++k)
+    for (int c = 0; c < 3; ++c)
+      largest = std::max(largest, std::abs(2.0 * system.weights[k] * input[3 * k + c]));
+  return largest > 0.0 ? std::ldexp(1.0, std::ilogb(largest)) : 1.0;
 }
 
 bool negligible(ResponseSums gain, ResponseSums all, double least) {
@@ -76,16 +88,20 @@ LinearResponse::LinearResponse(const PosingSystem& system, const double* inputs,
     const FlushDenormals flush;
     const int first = pack * kLanes, used = std::min(kLanes, count - first);
     ResponseColumn forces(size(), ResponsePack(0)), x(size(), ResponsePack(0));
+    double units[kLanes];
+    for (int lane = 0; lane < used; ++lane)
+      units[lane] = unit_of(system, inputs + std::size_t(first + lane) * system.input_size());
     for (std::size_t k = 0; k < system.pinned.size(); ++k)
       for (int c = 0; c < 3; ++c)
         for (int lane = 0; lane < used; ++lane) {
           const double* input = inputs + std::size_t(first + lane) * system.input_size();
           set_lane(forces[3 * std::size_t(system.pinned[k]) + c], lane,
-                   2.0 * system.weights[k] * input[3 * k + c]);
+                   2.0 * system.weights[k] * input[3 * k + c] / units[lane]);
         }
     solve(system, forces, x);
     for (std::size_t i = 0; i < size(); ++i)
-      for (int lane = 0; lane < used; ++lane) entries_[i * count + first + lane] = x[i][lane];
+      for (int lane = 0; lane < used; ++lane)
+        entries_[i * count + first + lane] = static_cast<float>(units[lane] * x[i][lane]);
   });
 }
 

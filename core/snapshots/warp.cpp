@@ -58,15 +58,16 @@ void shell_residual(const ElasticEnergy& energy, int element, const SamplePack (
           weight * SamplePack(static_cast<float>(hinge.row[c])) * (wanted[r] - reached[r]);
 }
 
-/// Sets the residual, as forces, of the shape x with respect to the nearest shape.
-void fill_residual(const PosingSystem& system, const std::vector<float>& stiffnesses,
+/// Sets the residual, as forces in this unit, of the shape x with respect to the nearest shape.
+void fill_residual(const PosingSystem& system, const std::vector<double>& stiffnesses, double unit,
                    const SampleColumn& linear, const std::vector<SamplePack>& targets,
                    const SampleColumn& x, SampleColumn& residual) {
   std::fill(residual.begin(), residual.end(), SamplePack(0));
   const RestShape& rest = system.energy.rest;
   for (std::size_t t = 0; t < rest.tets.size(); ++t) {
     const RestTetOf<float>& tet = rest.single_tets[t];
-    const SamplePack weight(stiffnesses[t] * tet.volume);
+    const float volume = static_cast<float>(rest.tets[t].volume / unit);
+    const SamplePack weight(static_cast<float>(stiffnesses[t]) * volume);
     SamplePack small[3][3], G[3][3], stress[3][3];
     displacement_gradient(tet, linear.data(), small);
     displacement_gradient(tet, x.data(), G);
@@ -82,8 +83,8 @@ void fill_residual(const PosingSystem& system, const std::vector<float>& stiffne
   for (std::size_t k = 0; k < system.pinned.size(); ++k)
     for (int c = 0; c < 3; ++c) {
       const std::size_t i = 3 * static_cast<std::size_t>(system.pinned[k]) + c;
-      residual[i] +=
-          SamplePack(static_cast<float>(2.0 * system.weights[k])) * (targets[3 * k + c] - x[i]);
+      residual[i] += SamplePack(static_cast<float>(2.0 * system.weights[k] / unit)) *
+                     (targets[3 * k + c] - x[i]);
     }
 }
 
@@ -93,8 +94,8 @@ void warp(const PosingSystem& system, const LinearResponse& response, const doub
           const double* inputs, int samples, double* displacements) {
   const std::size_t size = response.size();
   const int steps = system.inverse.kind() == InverseKind::cycle ? kCycles : 1;
-  const std::vector<double> wide = system.energy.stiffnesses();
-  const std::vector<float> stiffnesses(wide.begin(), wide.end());
+  const std::vector<double> stiffnesses = system.energy.stiffnesses();
+  const double unit = system.energy.force_unit();
   parallel_for((samples + kSamples - 1) / kSamples, 0, [&](int pack) {
     const FlushDenormals flush;
     const std::size_t first = std::size_t(pack) * kSamples;
@@ -106,9 +107,10 @@ void warp(const PosingSystem& system, const LinearResponse& response, const doub
     SampleColumn x(size, SamplePack(0)), residual(size, SamplePack(0));
     Scratch scratch;
     for (int step = 0; step < steps; ++step) {
-      fill_residual(system, stiffnesses, linear, targets, x, residual);
+      fill_residual(system, stiffnesses, unit, linear, targets, x, residual);
       system.inverse.apply(residual.data(), residual.data(), scratch);
-      for (std::size_t i = 0; i < size; ++i) x[i] += residual[i];
+      for (std::size_t i = 0; i < size; ++i)
+        x[i] += SamplePack(static_cast<float>(unit)) * residual[i];
     }
     std::vector<double> shape(size);
     for (int lane = 0; lane < used; ++lane) {

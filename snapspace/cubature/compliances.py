@@ -64,7 +64,14 @@ def compliances(
 
     def fill(worker: int) -> None:
         hessian = states.hessians(copy(estimate))  # one thread may use it at a time
-        least = LEAST * np.linalg.eigvalsh(hessian(None))[0]
+        with np.errstate(over="ignore", invalid="ignore"):
+            rest = hessian(None)
+        if not np.isfinite(rest).all():
+            raise ValueError(
+                "reduce: the energies of tets leave single precision, 1e-38 to 1e38; use units in "
+                "which the body's size and its moduli are nearer to 1"
+            )
+        least = LEAST * np.linalg.eigvalsh(rest)[0]
         for k in range(worker, len(states), workers):
             values, vectors = np.linalg.eigh(hessian(k))
             result[k] = (vectors / np.maximum(values, least)) @ vectors.T

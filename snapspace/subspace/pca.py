@@ -118,6 +118,11 @@ def spanned_dimension(snapshots: Snapshots) -> int:
 def _which(snapshots: Snapshots, *, include_unconverged: bool) -> NDArray[np.bool_]:
     """Which snapshots count, (k,); ValueError if none does."""
     which = np.ones(len(snapshots), bool) if include_unconverged else snapshots.usable
+    if not which.any() and all(report.status == "not_finite" for report in snapshots.reports):
+        raise ValueError(
+            f"snapshot_pca: the energies of all {len(snapshots)} snapshots leave the range of "
+            "numbers; use units in which the body's size and its moduli are nearer to 1"
+        )
     if not which.any():
         raise ValueError(
             f"snapshot_pca: none of the {len(snapshots)} snapshots converged; allow more "

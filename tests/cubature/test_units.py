@@ -45,3 +45,8 @@ def test_a_cubature_is_the_same_in_every_unit_of_length(usual: Cubature, power: 
     found = cubature_of(2.0**power)
     np.testing.assert_array_equal(found.tets, usual.tets)
     np.testing.assert_allclose(found.weights / 2.0 ** (3 * power), usual.weights, rtol=1e-4)
+
+
+def test_units_beyond_single_precision_are_refused_with_the_cure() -> None:
+    with pytest.raises(ValueError, match=r"^reduce: .* leave single precision, .*; use units in"):
+        cubature_of(2.0**44)

@@ -180,17 +180,21 @@ def test_motions_that_single_precision_does_not_see(size: float) -> None:
     assert np.abs(found).max() <= 3.0 * np.abs(problem.inputs(samples)).max()
 
 
-@pytest.mark.parametrize("scale", [1e-12, 1e-11, 1e-8, 1e-3, 1e6, 1e12])
-def test_units_do_not_matter_or_are_reported(scale: float) -> None:
-    """A copy in other units has the same solutions. Volumes beyond the range must not be silent."""
+def bar_in_unit(scale: float) -> PosingProblem:
     here = posing_bar()
-    there = PosingProblem(
+    return PosingProblem(
         TetMesh(scale * here.mesh.vertices, here.mesh.tets),
         here.handles,
         domain=here.domain,
         material=here.material,
         stiffness=here.stiffness / scale**2,
     )
+
+
+@pytest.mark.parametrize("scale", [1e-12, 1e-11, 1e-8, 1e-3, 1e6, 1e12])
+def test_units_do_not_matter_or_are_reported(scale: float) -> None:
+    """A copy in other units has the same solutions. Volumes beyond the range must not be silent."""
+    here, there = posing_bar(), bar_in_unit(scale)
     samples = parameters(here, 8)
     factors = np.array([scale, scale, scale, 1.0, 1.0, 1.0])
     expected = solved(here, samples, "double", tolerance=1e-12)
@@ -200,6 +204,20 @@ def test_units_do_not_matter_or_are_reported(scale: float) -> None:
     assert np.abs(excess[found.converged]).max(initial=0.0) < 1e-4
     away = np.abs(found.shapes / scale - expected.shapes).max(axis=1)
     assert away[found.converged].max(initial=0.0) < 2e-3
+
+
+@pytest.mark.parametrize("scale", [1e-13, 1e-11, 1e13])
+def test_the_first_gradient_and_the_guesses_are_in_range_in_any_unit(scale: float) -> None:
+    """In single precision: guesses were not finite, and the first slope of a solve was zero."""
+    here, there = posing_bar(), bar_in_unit(scale)
+    samples = parameters(here, 4)
+    units = np.array([scale, scale, scale, 1.0, 1.0, 1.0])
+    assert np.isfinite(there.guesses(samples * units)).all()
+    expected = solve_snapshots(here, samples, threads=1)
+    found = solve_snapshots(there, samples * units, threads=1)
+    assert found.converged.all()
+    assert min(report.iterations for report in found.reports) > 0
+    assert np.abs(found.shapes / scale - expected.shapes).max() < 2e-3
 
 
 def test_the_default_is_single_where_it_resolves_the_tolerance() -> None:

@@ -20,9 +20,11 @@ def snapshots() -> Snapshots:
     return solve_snapshots(problem, parameters(problem, 10), threads=1)
 
 
-def with_failures(snapshots: Snapshots, failed: list[int]) -> Snapshots:
+def with_failures(
+    snapshots: Snapshots, failed: list[int], status: str = "max_iterations"
+) -> Snapshots:
     reports = [
-        replace(report, status="max_iterations") if i in failed else report
+        replace(report, status=status) if i in failed else report
         for i, report in enumerate(snapshots.reports)
     ]
     return replace(snapshots, reports=reports)
@@ -101,3 +103,9 @@ def test_more_dimensions_never_hurt(snapshots: Snapshots) -> None:
         errors.append(np.diag(mass_gram(subspace.mass, left, left)))
     assert (np.diff(errors, axis=0) <= 1e-15).all()
     assert np.mean(errors[-1]) < 0.01 * np.mean(errors[0])
+
+
+def test_the_cure_of_energies_out_of_range_is_another_unit(snapshots: Snapshots) -> None:
+    failing = with_failures(snapshots, list(range(10)), "not_finite")
+    with pytest.raises(ValueError, match=r"energies of all 10 snapshots leave .*; use units in"):
+        snapshot_pca(failing, dimension=2)
