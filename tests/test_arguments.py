@@ -144,7 +144,7 @@ WRONG: dict[str, tuple[Call, str]] = {
     ),
     "a problem as samples": (
         lambda m, s: ss.save_snapshots(s.problem, "bar.samples"),
-        "save_snapshots: snapshots is of type PosingProblem; give snapshots, path",
+        "save_snapshots: snapshots is of type PosingProblem; give those of solve_snapshots or load",
     ),
     "a session as glTF": (
         lambda m, s: ss.write_glb("bar.glb", m.session(), ss.mode_targets(m)),
@@ -153,6 +153,42 @@ WRONG: dict[str, tuple[Call, str]] = {
     "a session for Blender": (
         lambda m, s: ss.write_blender("bar.py", m.session(), ss.mode_targets(m)),
         "write_blender: model is of type PosingSession; give session.model",
+    ),
+    "a file's name as the reference": (
+        lambda m, s: ss.validate(m, reference="bar.samples"),  # type: ignore[arg-type]
+        "validate: reference is of type str; give those of solve_snapshots or load_snapshots",
+    ),
+    "no reference to split by": (
+        lambda m, s: ss.split_errors(m, None),  # type: ignore[arg-type]
+        "split_errors: reference is of type NoneType; give those of",
+    ),
+    "shapes to reduce by": (
+        lambda m, s: ss.reduce(s.problem, m.subspace, snapshots=s.shapes),
+        "reduce: snapshots is of type ndarray; give those of solve_snapshots",
+    ),
+    "shapes as known samples": (
+        lambda m, s: ss.greedy_snapshots(s.problem, 4, known=s.shapes),
+        "greedy_snapshots: known is of type ndarray; give those of solve_snapshots",
+    ),
+    "a session as the problem of samples": (
+        lambda m, s: ss.load_snapshots("bar.samples", m.session()),
+        "load_snapshots: problem is of type PosingSession; give path, problem",
+    ),
+    "a session's error curve": (
+        lambda m, s: ss.error_curve(m.session()),
+        "error_curve: model is of type PosingSession; give session.model",
+    ),
+    "a session with other handles": (
+        lambda m, s: ss.with_handles(m.session(), s.problem),
+        "with_handles: model is of type PosingSession; give session.model",
+    ),
+    "a session's morph targets": (
+        lambda m, s: ss.mode_targets(m.session()),
+        "mode_targets: model is of type PosingSession; give session.model",
+    ),
+    "a session's fitted targets": (
+        lambda m, s: ss.fitted_targets(m.session(), s.shapes),
+        "fitted_targets: model is of type PosingSession; give session.model",
     ),
     "a number as keys": (
         lambda m, s: ss.Timeline("posing", 3),  # type: ignore[arg-type]

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..blas import single_threaded_blas
 from ..mesh import vertex_normals
-from ..reduction import ReducedModel
+from ..reduction import ReducedModel, check_model
 from .drawn_surface import DrawnSurface, drawn_surface
 
 FloatArray = NDArray[np.float64]
@@ -53,6 +53,7 @@ def mode_targets(model: ReducedModel, shapes: ArrayLike | None = None) -> MorphT
     Changes of the normals are those that fit the training samples best, or the given shapes if
     there are more of them.
     """
+    check_model(model, "mode_targets")
     surface, subspace = model.surface, model.subspace
     base = surface.vertices(subspace.tau.reshape(-1, 3))
     targets = np.array(
@@ -93,6 +94,7 @@ def fitted_targets(model: ReducedModel, shapes: ArrayLike, *, count: int = 8) ->
     ValueError
         For no shapes, or a count that is not positive.
     """
+    check_model(model, "fitted_targets")
     given = np.asarray(shapes, np.float64)
     if len(given) == 0 or count < 1:
         raise ValueError(

@@ -18,6 +18,7 @@ from ..snapshots import (
     Progress,
     Snapshots,
     SolverOptions,
+    check_snapshots_of,
     solve_snapshots,
 )
 from .batch_checkpoints import batch_checkpoint
@@ -144,7 +145,7 @@ def _check(
     for name, value in numbers.items():
         require_count("greedy_snapshots", name, value, at_least=1)
     if known is not None:
-        known.check_of(problem, "greedy_snapshots")
+        check_snapshots_of(problem, known, "greedy_snapshots", "known")
 
 
 def _sizes(count: int, batch: int, candidates: int, *, chosen: bool) -> list[int]:

@@ -7,7 +7,7 @@ from typing import Any, overload
 from ..cubature import BlendedSum, Cubature, train_blended_cubature, train_cubature
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem, is_quartic
-from ..snapshots import Snapshots
+from ..snapshots import Snapshots, check_snapshots_of
 from ..subspace import AffineSubspace
 from ..subspace.orthonormality import check_orthonormal
 from ..thread_count import checked_threads
@@ -145,7 +145,7 @@ def reduce(
     if kind == "exact":
         warn_of_long_quartics(problem, subspace.dimension)
     if snapshots is not None:
-        snapshots.check_of(problem, "reduce")
+        check_snapshots_of(problem, snapshots, "reduce", "snapshots")
     used = snapshots
     if snapshots is not None and not include_unconverged and not snapshots.usable.all():
         used = snapshots.select(snapshots.usable)

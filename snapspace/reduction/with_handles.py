@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..problem import PosingProblem
+from .check_model import check_model
 from .handle_quadric import handle_quadric
 from .posing_model import PosingModel
 
@@ -35,6 +36,7 @@ def with_handles(model: PosingModel, problem: PosingProblem) -> PosingModel:
     ValueError
         For another mesh or material.
     """
+    check_model(model, "with_handles")
     old = model.problem
     for what, own, other in (
         ("mesh", old.mesh.fingerprint, problem.mesh.fingerprint),

@@ -5,7 +5,7 @@ from .checkpoint import Checkpoint, CheckpointNotice, UnsavedSamplesError, run_k
 from .predictions import Predictions, positive_inverse
 from .run import Interrupted
 from .snapshot_file import SAMPLES_SUFFIX, load_snapshots, save_snapshots
-from .snapshots import SampleReport, Snapshots
+from .snapshots import SampleReport, Snapshots, check_snapshots, check_snapshots_of
 from .solve import solve_snapshots, solver_key
 from .solve_progress import Progress, SolveProgress
 from .solver_options import PRECISIONS, PROJECTIONS, SOLVERS, SolverOptions
@@ -27,6 +27,8 @@ __all__ = [
     "SolverOptions",
     "UnsavedSamplesError",
     "carry_over",
+    "check_snapshots",
+    "check_snapshots_of",
     "load_snapshots",
     "lowest_start",
     "positive_inverse",

@@ -19,7 +19,7 @@ from ..disk.safetensors_bytes import safetensors_bytes
 from ..displacements import DisplacementRows
 from ..mesh.input_path import existing_file, writable_path
 from ..problem import Problem
-from .snapshots import SampleReport, Snapshots
+from .snapshots import SampleReport, Snapshots, check_snapshots
 
 Arrays = dict[str, NDArray[np.float64]]
 
@@ -49,9 +49,7 @@ def save_snapshots(snapshots: Snapshots, path: str | os.PathLike[str]) -> Path:
     ValueError
         For an unknown extension, or if the file cannot be written.
     """
-    if not isinstance(snapshots, Snapshots):
-        cure = "give snapshots, path, such as those of solve_snapshots"
-        raise wrong_type("save_snapshots", "snapshots", snapshots, cure)
+    check_snapshots(snapshots, "save_snapshots")
     target = writable_path(as_path("save_snapshots", path), known=[SAMPLES_SUFFIX])
     arrays = {
         "parameters": np.ascontiguousarray(snapshots.parameters, "<f8"),
@@ -85,6 +83,8 @@ def load_snapshots(path: str | os.PathLike[str], problem: Problem) -> Snapshots:
         If there is no such file, it is damaged or of another kind, or its samples are of another
         problem, with another mesh, material or domain, or other handles or poses.
     """
+    if not hasattr(problem, "fingerprint"):  # any class may be a problem
+        raise wrong_type("load_snapshots", "problem", problem, "give path, problem")
     file = existing_file(as_path("load_snapshots", path), known=[SAMPLES_SUFFIX])
     arrays, header = _read(file)
     if header["fingerprint"] != problem.fingerprint:

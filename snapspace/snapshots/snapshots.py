@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import wrong_type
 from ..displacements import DisplacementRows, SnapshotGram, chosen_rows
 from ..mesh import TetMesh, shape_rows
 from ..problem import PosingProblem, Problem
@@ -184,14 +185,6 @@ class Snapshots:
             [*self.reports, *others.reports],
         )
 
-    def check_of(self, problem: Problem, who: str) -> None:
-        """Raises a ValueError in the name of `who` unless these are snapshots of the problem."""
-        if self.problem.fingerprint != problem.fingerprint:
-            cure = "solve samples of this one"
-            if isinstance(problem, PosingProblem):
-                cure = "`carry_over` makes them snapshots of this one"
-            raise ValueError(f"{who}: the snapshots are of another problem; {cure}")
-
     def summary(self) -> str:
         """One line: how many converged, the status of others, iterations, inverted tets of solids.
 
@@ -207,3 +200,19 @@ class Snapshots:
         if isinstance(self.problem.mesh, TetMesh):
             parts.append(f"at most {max(r.inverted_tets for r in self.reports)} inverted tets")
         return ", ".join(parts)
+
+
+def check_snapshots(snapshots: object, who: str, name: str = "snapshots") -> None:
+    """Raises a ValueError in the name of `who` for anything but snapshots, such as a file."""
+    if not isinstance(snapshots, Snapshots):
+        raise wrong_type(who, name, snapshots, "give those of solve_snapshots or load_snapshots")
+
+
+def check_snapshots_of(problem: Problem, snapshots: Snapshots, who: str, name: str) -> None:
+    """The same, also for snapshots of another problem."""
+    check_snapshots(snapshots, who, name)
+    if snapshots.problem.fingerprint != problem.fingerprint:
+        cure = "solve samples of this one"
+        if isinstance(problem, PosingProblem):
+            cure = "`carry_over` makes them snapshots of this one"
+        raise ValueError(f"{who}: the snapshots are of another problem; {cure}")

@@ -14,7 +14,7 @@ from ..thread_count import checked_threads
 from .checkpoint import Checkpoint
 from .predictions import Predictions
 from .run import Run
-from .snapshots import Snapshots
+from .snapshots import Snapshots, check_snapshots_of
 from .solve_progress import Progress
 from .solver_options import SolverOptions
 
@@ -85,7 +85,7 @@ def solve_snapshots(
         raise wrong_type("solve_snapshots", "options", options, cure)
     samples = _checked(problem, parameters)
     if known is not None:
-        known.check_of(problem, "solve_snapshots")
+        check_snapshots_of(problem, known, "solve_snapshots", "known")
     wanted = (len(samples), problem.base.size)
     if predictions is not None and predictions.displacements.shape != wanted:
         raise ValueError(

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..reduction import ReducedModel
+from ..reduction import ReducedModel, check_model
 from ..snapshots import Progress, Snapshots
 from .validate import given_or_solved, validate
 from .validation import Validation
@@ -83,6 +83,7 @@ def error_curve(
     ValueError
         As for `validate`, and if a dimension is out of range or there are none.
     """
+    check_model(model, "error_curve")
     chosen = usual_dimensions(model.dimension) if dimensions is None else sorted(set(dimensions))
     wrong = [d for d in chosen if not 1 <= d <= model.dimension]
     if wrong or not chosen:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..mesh import Body, TetMesh, mass_norms, tet_volumes
 from ..reduction import ReducedModel
 from ..session import FrameReport
-from ..snapshots import Snapshots
+from ..snapshots import Snapshots, check_snapshots_of
 
 FloatArray = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ def unseen_errors(model: ReducedModel, reference: Snapshots) -> FloatArray:
     ValueError
         If the reference is of another problem.
     """
-    reference.check_of(model.problem, "unseen_errors")
+    check_snapshots_of(model.problem, reference, "unseen_errors", "reference")
     errors: FloatArray = compared(model, reference)[0][:, 0]
     return errors
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..reduction import ReducedModel, check_model
-from ..snapshots import Snapshots
+from ..snapshots import Snapshots, check_snapshots
 
 
 def check_reference(model: ReducedModel, reference: Snapshots, *, who: str = "validate") -> None:
@@ -15,6 +15,7 @@ def check_reference(model: ReducedModel, reference: Snapshots, *, who: str = "va
     a training parameter of the model, where its error says nothing about other parameters.
     """
     check_model(model, who)
+    check_snapshots(reference, who, "reference")
     own, theirs = model.problem, reference.problem
     if theirs.fingerprint != own.fingerprint:
         raise ValueError(
