@@ -8,11 +8,17 @@ from pathlib import Path
 import numpy as np
 
 from ..accurate import plan_of
-from ..problem import InterpolationProblem, is_quartic
+from ..mesh import TetMesh, tet_volumes
+from ..problem import InterpolationProblem, PosingProblem, is_quartic
+from ..snapshots import Snapshots
 from ..validation import Validation
 from .advice import advice, split_of_some
 from .console import notice
+from .mesh_info import SLIVER
 from .pipeline import Built
+
+#: Samples in which inverted tets are looked for.
+LOOKED_AT = 8
 
 Suggestions = list[tuple[str, list[str | Path]]]
 
@@ -71,6 +77,11 @@ def _notice_inverted_samples(built: Built) -> None:
     problem = built.model.problem
     if isinstance(problem, InterpolationProblem):
         cure = "leave out the poses that differ most, or repair those with inverted tets"
+    elif _are_slivers(problem, built.snapshots):
+        cure = (
+            f"most of these are among those with a dihedral angle below {SLIVER} degrees, which "
+            "`snapspace check` counts: make a mesh without them"
+        )
     else:
         cure = "make the box of motions smaller, or the handles larger"
         if is_quartic(problem):
@@ -79,6 +90,18 @@ def _notice_inverted_samples(built: Built) -> None:
         f"notice: {sum(count > 0 for count in inverted)} of {len(inverted)} samples have inverted "
         f"tets, at most {max(inverted)} of {len(problem.mesh.cells)}; {cure}"
     )
+
+
+def _are_slivers(problem: PosingProblem, snapshots: Snapshots) -> bool:
+    """Whether most inverted tets of a few samples are slivers, which small motions invert."""
+    mesh = problem.mesh
+    if not isinstance(mesh, TetMesh):
+        return False
+    some = [k for k, report in enumerate(snapshots.reports) if report.inverted_tets][:LOOKED_AT]
+    shapes = [(problem.base + snapshots.displacements[k]).reshape(-1, 3) for k in some]
+    inverted = np.sum([tet_volumes(shape, mesh.tets) <= 0 for shape in shapes], axis=0)
+    slivers = mesh.dihedral_angles.min(axis=1) < SLIVER
+    return bool(inverted[slivers].sum() > inverted[~slivers].sum())
 
 
 def _notice_inverted_frames(validation: Validation) -> None:

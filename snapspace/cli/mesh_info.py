@@ -13,6 +13,9 @@ from ..input_error import fault_of
 from ..mesh import Body, MeshNotice, ShellMesh, TetMesh, read_surface, read_tets
 from .shell_info import shell_facts, shell_figures
 
+#: Tets with a smaller dihedral angle, in degrees, are called slivers.
+SLIVER = 5
+
 Info = tuple[dict[str, Any], list[tuple[str, str]]]
 
 
@@ -75,7 +78,7 @@ def mesh_figures(mesh: Body) -> dict[str, Any]:
         "dihedral_degrees": {
             "min": float(angles.min()),
             "max": float(angles.max()),
-            "tets_below_5": int((smallest < 5).sum()),
+            "tets_below_5": int((smallest < SLIVER).sum()),
         },
         "tet_volume": {"min": float(mesh.volumes.min()), "max": float(mesh.volumes.max())},
         "fingerprint": mesh.fingerprint,
@@ -98,7 +101,7 @@ def mesh_facts(figures: dict[str, Any]) -> list[tuple[str, str]]:
         (
             "dihedral angles",
             f"{angles['min']:.3g} to {angles['max']:.4g} degrees"
-            + (f", {slivers} tets with one below 5" if slivers else ""),
+            + (f", {slivers} tets with one below {SLIVER}" if slivers else ""),
         ),
         ("tet volumes", f"{sizes['min']:.3g} to {sizes['max']:.3g}"),
     ]

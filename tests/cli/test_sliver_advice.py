@@ -1,0 +1,51 @@
+"""The cure of inverted tets: a better mesh where they are slivers, else smaller motions."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import snapspace as ss
+from snapspace.cli.build_advice import _notice_inverted_samples
+from snapspace.generators import bar
+
+
+def notice_of(capsys: pytest.CaptureFixture[str], *, height: float) -> str:
+    """After a build whose only sample has one inverted tet, which has this height at rest."""
+    mesh = bar(4, 2, 2)
+    vertices = mesh.vertices.copy()
+    tet = next(t for t in mesh.tets if not set(t) <= set(mesh.surface_vertices))
+    top = next(v for v in tet if v not in mesh.surface_vertices)
+    base = vertices[[v for v in tet if v != top]]
+    normal = np.cross(base[1] - base[0], base[2] - base[0])
+    normal *= np.sign((vertices[top] - base[0]) @ normal) / np.linalg.norm(normal)
+    above = (vertices[top] - base[0]) @ normal
+    vertices[top] -= (1.0 - height) * above * normal
+    body = ss.TetMesh(vertices, mesh.tets)
+    along = vertices[:, 0]
+    handles = ss.Handles([along == along.min(), along == along.max()])
+    problem = ss.PosingProblem(body, handles, domain=ss.HandleBox(translation=0.1, angle=0.1))
+    shape = vertices.copy()
+    shape[top] -= 1.1 * height * above * normal
+    solved = ss.solve_snapshots(problem, ss.sample(problem.domain, 1), threads=1)
+    report = ss.SampleReport("converged", 1, 1, 0.0, 0.0, 0.0, 0.0, 1)
+    snapshots = ss.Snapshots.from_shapes(problem, solved.parameters, shape.reshape(1, -1), [report])
+    model = SimpleNamespace(problem=problem)
+    _notice_inverted_samples(SimpleNamespace(model=model, snapshots=snapshots))  # type: ignore[arg-type]
+    return " ".join(capsys.readouterr().err.split())
+
+
+def test_the_cure_of_inverted_slivers_is_a_better_mesh(capsys: pytest.CaptureFixture[str]) -> None:
+    told = notice_of(capsys, height=0.01)
+    assert "most of these are among those with a dihedral angle below 5 degrees" in told
+    assert "`snapspace check` counts: make a mesh without them" in told
+    assert "box of motions" not in told
+
+
+def test_the_cure_of_other_inverted_tets_is_a_smaller_motion(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    told = notice_of(capsys, height=1.0)
+    assert told.endswith("make the box of motions smaller, or the handles larger")
