@@ -13,7 +13,10 @@ import snapspace as ss
 def export_arrays(model_path: str, path: str) -> None:
     model = ss.load(model_path)
     if not isinstance(model, ss.PosingModel) or not isinstance(model.elastic, ss.Quartic):
-        raise SystemExit(f"{model_path}: a posing model with an exact energy is needed")
+        raise SystemExit(
+            f"{model_path}: a posing model with an exact energy is needed; build one of a problem "
+            'with "material": {"model": "stvk"}'
+        )
     sizes = [model.dimension, len(model.problem.handles), len(model.problem.mesh.vertices)]
     numbers = [
         [model.value_scale, model.coordinate_scale],  # units of the termination tests

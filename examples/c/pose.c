@@ -17,10 +17,14 @@ static double* read_doubles(FILE* file, size_t count) {
 }
 
 int main(int argc, char** argv) {
-  FILE* file = argc == 5 ? fopen(argv[1], "rb") : NULL;
+  if (argc != 5) {
+    fprintf(stderr, "usage: pose FILE.arrays X Y Z\n");
+    return 2;
+  }
+  FILE* file = fopen(argv[1], "rb");
   int sizes[3]; /* dimension, handles, vertices */
   if (!file || fread(sizes, sizeof *sizes, 3, file) != 3) {
-    fprintf(stderr, "usage: pose FILE.arrays X Y Z\n");
+    fprintf(stderr, "pose: %s cannot be read; export_arrays.py writes it\n", argv[1]);
     return 2;
   }
   const size_t d = sizes[0], handles = sizes[1], n = sizes[2];

@@ -42,3 +42,17 @@ def test_the_example_moves_the_last_handle(
     (tmp_path / "short.arrays").write_bytes((tmp_path / "bar.arrays").read_bytes()[:-8])
     refused = subprocess.run([program, "short.arrays", *motion], cwd=tmp_path, capture_output=True)
     assert refused.returncode == 2 and b"incomplete" in refused.stderr
+    missing = subprocess.run([program, "none.arrays", *motion], cwd=tmp_path, capture_output=True)
+    assert missing.returncode == 2
+    assert missing.stderr == b"pose: none.arrays cannot be read; export_arrays.py writes it\n"
+
+
+def test_a_model_without_an_exact_energy_is_refused_with_the_cure(
+    cubature_model: PosingModel, tmp_path: Path
+) -> None:
+    model = cubature_model.save(tmp_path / "bar.snapspace")
+    export = runpy.run_path(str(EXAMPLE / "export_arrays.py"))["export_arrays"]
+    with pytest.raises(
+        SystemExit, match=r'exact energy is needed; .*"material": {"model": "stvk"}'
+    ):
+        export(str(model), str(tmp_path / "bar.arrays"))
