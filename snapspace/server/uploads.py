@@ -24,6 +24,9 @@ def upload_endpoint(
 ) -> Callable[[Request], Awaitable[Response]]:
     """Takes POST requests: the body is the file, and the query has workspace=ID and name=FILE.
 
+    With request=N it counts among the page's messages: a later `Cancel` also drops a file that
+    arrives after it.
+
     The answer is 202 once the file has arrived; the websocket sends the rest. Errors are one line
     of text: 400 for an interrupted upload, 404 for a page that is not connected, 413 beyond the
     limit, 415 for a file that is neither a mesh nor a model.
@@ -46,10 +49,13 @@ def upload_endpoint(
     async def taken(request: Request, body: AsyncIterator[bytes]) -> Response:
         workspace = workspaces.get(request.query_params.get("workspace", ""))
         name = plain_name(request.query_params.get("name", ""))
+        number = request.query_params.get("request", "0")
         if workspace is None:
             return _refusal(404, "the page of this upload is not connected; reload it")
         if Path(name).suffix.lower() not in (*MESH_SUFFIXES, SUFFIX):
             return _refusal(415, f"{name}: a page takes meshes, {' '.join(MESH_SUFFIXES)}")
+        if not number.isdecimal():
+            return _refusal(400, f"{name}: request must be a whole number, got {number}")
         too_large = f"{name}: more than {settings.upload_limit / 2**20:g} MB; raise --upload-limit"
         if int(request.headers.get("content-length", "0")) > settings.upload_limit:
             return _refusal(413, too_large)
@@ -64,7 +70,7 @@ def upload_endpoint(
         if not complete:
             await run_in_threadpool(shutil.rmtree, place.parent, ignore_errors=True)
             return _refusal(413, too_large)
-        await run_in_threadpool(workspace.upload, place)
+        await run_in_threadpool(workspace.upload, place, int(number))
         return Response(status_code=202)
 
     return upload

@@ -76,6 +76,7 @@ class Workspace:
     def resume(self, emit: Callable[..., None]) -> None:
         """Connects a page that is back: sends it the state, and then new messages."""
         with self._lock:
+            self._jobs.count_anew()  # as a page that was loaded again does
             self._emit.connect(emit, self._present)
 
     def _present(self, begun: messages.Workspace) -> messages.Workspace:
@@ -88,13 +89,14 @@ class Workspace:
         )
         return with_choices(now, self._draft)
 
-    def upload(self, path: Path) -> None:
-        """Opens a mesh or model file in place of the current one, once it has been read."""
+    def upload(self, path: Path, request: int = 0) -> None:
+        """Opens a mesh or model file in place of the current one, once it has been read.
+
+        Files that come after the page closed, or after a later upload or cancel, are removed.
+        """
         with self._lock:
-            if self._closed:  # the page closed during the upload
+            if self._closed or not self._jobs.read(lambda: self._take_upload(path), request):
                 shutil.rmtree(path.parent, ignore_errors=True)
-            else:
-                self._jobs.read(lambda: self._take_upload(path))
 
     def _take_upload(self, path: Path) -> None:
         """Reads a file, in a job: if that fails, the present body, models and work stay."""
@@ -147,7 +149,7 @@ class Workspace:
             self._compute(message)
         elif isinstance(message, messages.Cancel):
             if message.upload:
-                self._jobs.stop_reading()
+                self._jobs.stop_reading(message.request)
             else:
                 self._surface = None
                 self._jobs.end_work()

@@ -29,6 +29,7 @@ class WorkspaceJobs:
         self._work: Job | None = None
         self._check: Job | None = None
         self._reading: Job | None = None
+        self._uploaded = 0  # request of the last upload, or of a cancel since
         self.polishes = PolishJobs(emit, failed)
 
     @property
@@ -46,13 +47,24 @@ class WorkspaceJobs:
             self._work.stop()
             self._work.wait(STOP_SECONDS)
 
-    def read(self, work: Callable[[], None]) -> None:
-        """Begins to read an upload, in place of the last one."""
-        self.stop_reading()
-        self._reading = Job(work, failed=lambda error: self._failed(0, error))
+    def read(self, work: Callable[[], None], request: int) -> bool:
+        """Begins to read an upload, in place of the last one; False after a later request.
 
-    def stop_reading(self) -> None:
-        """Stops the reading of an upload, without waiting."""
+        An upload without a number, 0, is always read.
+        """
+        if 0 < request < self._uploaded:
+            return False
+        self.stop_reading(request)
+        self._reading = Job(work, failed=lambda error: self._failed(0, error))
+        return True
+
+    def count_anew(self) -> None:
+        """Takes the next upload, whatever its number is."""
+        self._uploaded = 0
+
+    def stop_reading(self, request: int) -> None:
+        """Stops the reading of uploads up to a request, without waiting."""
+        self._uploaded = request
         if self._reading is not None:
             self._reading.stop()
 

@@ -13,8 +13,8 @@ class Workspace:
 
     A page that reconnects gets its choices back; the newest `Model` and last `Progress` follow.
 
-    id : part of the address of uploads, POST mesh?workspace=ID&name=FILE&token=..., and of the
-        websocket of a page that reconnects, live?workspace=ID&token=...
+    id : part of the address of uploads, POST mesh?workspace=ID&name=FILE&request=N&token=..., and
+        of the websocket of a page that reconnects, live?workspace=ID&token=...
     kind : "empty": the page asks for a mesh; "reading": progress and another workspace follow;
         "surface": so far the mesh can only be looked at, progress of filling it and a workspace of
         its tets, or `Failed`, follow; "mesh": handles can be chosen; "model": the page's own model,

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
+from urllib.request import urlopen
 
 import numpy as np
 import pytest
@@ -12,7 +14,7 @@ from snapspace.generators import bar
 from snapspace.mesh import write_tets
 
 from .choosing_page import bar_with_ends, cancel, compute, handles, press, wait_for_text, widen
-from .pages import OpenPage, Page
+from .pages import SECONDS, OpenPage, Page
 from .serving import served
 
 
@@ -61,8 +63,13 @@ def drop_bad_file(page: Page) -> None:
 def test_a_cancelled_upload_leaves_what_was_there(
     bar_server: str, empty: str, bar_folder: Path, opened: OpenPage
 ) -> None:
+    addresses: list[str] = []
+
     def cancel_upload(page: Page, send: Callable[[], None]) -> None:
-        page.page.route("**/mesh?*", lambda _: None)  # the file is never received
+        def hold(route: Any) -> None:  # the file is not received
+            addresses.append(route.request.url)
+
+        page.page.route("**/mesh?*", hold)
         send()
         wait_for_text(page, "#message", "Sending")
         with page.page.expect_event("requestfailed"):  # without the route it would be received
@@ -76,6 +83,7 @@ def test_a_cancelled_upload_leaves_what_was_there(
     chosen = handles(page)
     cancel_upload(page, lambda: drop_bad_file(page))
     wait_until_gone(page)
+    urlopen(addresses[0], data=b"v 0 0 0", timeout=SECONDS).close()  # or only now
     assert page.run("snapspace.kind") == "choosing" and handles(page) == chosen
 
     widen(page)

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from snapspace.mesh import write_tets
 from snapspace.server.body import Body
 from snapspace.server.messages import Cancel, Cancelled, Choose, Chosen, Compute, Failed, Model
 from snapspace.server.messages import Workspace as Opened
@@ -250,3 +251,28 @@ def test_cancelling_the_reading_of_a_file_leaves_the_computation(
     mailbox.wait_for(Model, final=True)
     workspace.close()
     assert not any(isinstance(message, Failed) for message in mailbox.messages)
+
+
+def test_a_file_that_arrives_after_its_cancel_is_removed(
+    settings: ServerSettings, tmp_path: Path
+) -> None:
+    """Messages of a page may overtake its uploads."""
+
+    def upload(name: str, request: int) -> Path:
+        path = tmp_path / name / f"{name}.mesh"
+        path.parent.mkdir()
+        write_tets(path, bar_problem().mesh)
+        workspace.upload(path, request)
+        return path.parent
+
+    workspace, mailbox = opened(settings)
+    workspace.receive(Cancel(request=3, upload=True))
+    assert not upload("cancelled", 2).exists()
+    upload("newer", 5)
+    assert not upload("older", 4).exists()
+    mailbox.wait_for(Opened, kind="mesh", name="newer")
+    workspace.pause()
+    workspace.resume(mailbox.put)
+    upload("reloaded", 1)
+    mailbox.wait_for(Opened, kind="mesh", name="reloaded")
+    workspace.close()

@@ -95,9 +95,14 @@ export class Server {
   /** Sends a message and returns its number, which answers repeat. Refused without a connection. */
   send(message: Request): number {
     if (!this.isOpen) throw new Refused("There is no connection to the server.");
-    const request = ++this.#requests;
+    const request = this.number();
     this.#socket!.send(JSON.stringify({ ...message, request }));
     return request;
+  }
+
+  /** The number of the next message, or of an upload. */
+  number(): number {
+    return ++this.#requests;
   }
 
   /** Sends a message and waits for its answer of a type, until the signal. Refused if the server cannot, or is lost. */

@@ -63,7 +63,8 @@ export class ReadingBox {
       );
       return;
     }
-    const address = this.#server.address("mesh", { workspace: given.id, name: file.name });
+    const request = String(this.#server.number()); // before that of a cancel
+    const address = this.#server.address("mesh", { workspace: given.id, name: file.name, request });
     this.#show(`Sending ${file.name}`);
     const onProgress = (done: number, total: number) =>
       this.#bar.show({
