@@ -46,12 +46,13 @@ def test_a_surface_is_there_before_its_tets_and_nothing_moves_when_they_come(
     tmp_path: Path, opened: OpenPage, chromium: object, filling: HeldFilling
 ) -> None:
     page = dropped(tmp_path, opened, filling)
-    wait_for_text(page, "#message", "Filling bar with tets")
+    wait_for_text(page, "#message", "Making a solid of bar")
     page.wait("document.querySelector('#message progress').checkVisibility()")
+    assert page.text("#message").count("Filling") == 1, "only its stage says so"
     page.wait("snapspace.scene.surface.colors === 'material'")
     page.page.reload()
     page.wait(IS_LOOKED_AT)
-    wait_for_text(page, "#message", "Filling bar with tets")
+    wait_for_text(page, "#message", "Making a solid of bar")
     page.wait("snapspace.scene.surface.colors === 'material'")
     first = page.run(CAMERA)
     page.drag((300, 200), 80, 20)
@@ -93,7 +94,7 @@ def test_filling_can_be_cancelled(
     tmp_path: Path, opened: OpenPage, chromium: object, filling: HeldFilling
 ) -> None:
     page = dropped(tmp_path, opened, filling)
-    wait_for_text(page, "#message", "Filling bar")
+    wait_for_text(page, "#message", "Making a solid of bar")
     cancel(page)
     wait_for_text(page, "#message", "Drop a mesh here")
     page.wait("snapspace.stage.root.children.length === 0")

@@ -92,7 +92,7 @@ export class ReadingBox {
     this.#now(given, () => this.fill(given));
     if (!this.#isShown) this.#begin();
     this.#isBelow = true;
-    this.#tell(`Filling ${given.name} with tets`);
+    this.#tell(`Making a solid of ${given.name}`); // the stages say how
     this.#shell.messageBelow = true;
   }
 
