@@ -185,3 +185,15 @@ def test_an_arrow_that_points_at_the_camera_is_gone(moving: Page) -> None:
     moving.run(FROM_THE_FRONT)
     moving.settle()
     assert len(moving.run("snapspace.arrows()")) == 2
+
+
+def test_rings_are_there_only_to_turn(turning: Page) -> None:
+    rings = (
+        "snapspace.stage.scene.getObjectByName('gizmo').children"
+        ".filter((part) => part.visible && part.material.uniforms.isRing.value).length"
+    )
+    assert turning.run(rings) == 3
+    turning.page.get_by_role("radio", name="Pull").click()
+    turning.settle()
+    assert turning.run(rings) == 0, "a coloured part is moved"
+    assert turning.run("snapspace.arrows().length") > 0

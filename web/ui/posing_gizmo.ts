@@ -60,7 +60,7 @@ export class Gizmo {
     group.scale.setScalar(size);
     this.#parts.face(this.#frame.toCamera, turned);
     for (const part of this.#parts.all) {
-      const isOfMode = (part.kind === "arrow" || part.kind === "square") === (mode === "move");
+      const isOfMode = (part.kind === "arrow" || part.kind === "square") === (mode !== "turn");
       part.mesh.visible = isOfMode && (part === this.#active || this.#frame.isUsable(part));
     }
   }
