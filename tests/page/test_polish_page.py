@@ -64,6 +64,13 @@ def test_a_released_handle_is_polished(
     assert_shown(posing_model, page)
     page.page.mouse.up()
     page.wait("document.querySelector('.hud').innerText.includes('polished, moved')")
+    for come_to_rest in (lambda: page.page.keyboard.press("Control+z"), page.page.reload):
+        come_to_rest()
+        page.wait("snapspace.kind === 'posing'")
+        page.wait("document.querySelector('.hud').innerText.includes('polished, moved')")
+        page.rest()
+        expected = polished(page, posing_model)
+        assert np.abs(page.shown() - expected).max() < 1e-4 * posing_model.problem.mesh.diagonal
     page.page.get_by_role("button", name="Polish", exact=True).click()
     assert "polished" not in page.text(".hud")
     assert_shown(posing_model, page)

@@ -85,6 +85,7 @@ def test_it_is_dragged_while_it_improves_and_saved(
     page.settle()
     assert np.linalg.norm(np.subtract(page.motions()[1][1], before)) > 0.01
     wait_for_text(page, "#panel", "Done in")
+    wait_for_text(page, ".hud", "polished, moved")  # by the last model
     press(page, "Add key")
     press(page, "Choose handles")  # keys are there in all views
     exported = taken(page, "Export HTML", tmp_path)

@@ -20,7 +20,7 @@ export class Posing {
   mode: Mode = "move";
   /** After each solve, many times a second in a drag. */
   onSolved: (report: FrameReport) => void = () => {};
-  /** After the end of a drag, and when a swing has come to rest. */
+  /** After the end of a drag, after undo, and when a swing or a transition has come to rest. */
   onReleased: () => void = () => {};
   /** Before an edit that is no drag: ends a film, which would overwrite it. */
   beforeEdit: () => void = () => {};
@@ -83,10 +83,9 @@ export class Posing {
     const own = approach(session, motions);
     if (pulled) pulled.q = session.q;
     this.#solved(own);
-    if (fromBefore?.length === session.q.length * shown.length) {
-      this.#transition = new ShapeTransition(carriedOver(fromBefore, shown), pulled?.q ?? session.q);
-      this.#show();
-    }
+    const isKnown = fromBefore?.length === session.q.length * shown.length;
+    this.#comeFrom(isKnown ? carriedOver(fromBefore, shown) : this.#shown);
+    this.#show();
     this.onChange();
   }
 
@@ -94,6 +93,7 @@ export class Posing {
   begin(motions: readonly Motion[]): void {
     this.#solved(approach(this.session, motions));
     this.#history = new History<readonly Motion[]>(this.motions, areSame);
+    this.#comeFrom(this.session.q);
     this.onChange();
   }
 
@@ -102,9 +102,9 @@ export class Posing {
     return this.session.model.handles.map((_, handle) => this.session.motion(handle));
   }
 
-  /** Motions in all steps of the history. */
-  get states(): readonly (readonly Motion[])[] {
-    return this.#history.states;
+  /** The steps of undo. */
+  get history(): Pick<History<readonly Motion[]>, "states" | "canUndo" | "canRedo"> {
+    return this.#history;
   }
 
   get selected(): number {
@@ -170,19 +170,21 @@ export class Posing {
     if (before && !pulled && this.jiggle.isOn) {
       this.session.restore(this.motions, before);
       this.jiggle.wake();
-    } else if (before && !pulled) this.#transition = new ShapeTransition(before, this.session.q);
+    } else if (before && !pulled) this.#comeFrom(before);
     this.stage.draw();
   }
 
   /** Before each picture: swings, and shows the next step of the transition from the model before. */
   advance(seconds: number): void {
+    const wasOnTheWay = this.isOnTheWay;
     const report = this.jiggle.advance(seconds);
     if (report) this.#solved(report);
-    if (report && !this.jiggle.moves && !this.isDragging) this.onReleased();
-    if (!this.#transition) return;
-    this.#transition.advance(seconds);
-    if (this.#transition.isOver) this.#transition = null;
-    this.#show();
+    if (this.#transition) {
+      this.#transition.advance(seconds);
+      if (this.#transition.isOver) this.#transition = null;
+      this.#show();
+    }
+    if (wasOnTheWay && !this.isOnTheWay && !this.isDragging) this.onReleased();
   }
 
   /** Whether a swing or a transition needs more pictures. */
@@ -228,14 +230,6 @@ export class Posing {
     this.onReleased();
   }
 
-  get canUndo(): boolean {
-    return this.#history.canUndo;
-  }
-
-  get canRedo(): boolean {
-    return this.#history.canRedo;
-  }
-
   undo(): void {
     if (this.isDragging) return;
     this.beforeEdit();
@@ -256,6 +250,7 @@ export class Posing {
     this.#history.push(this.motions);
     this.#solved(this.session.solve());
     this.onChange();
+    this.onReleased();
   }
 
   set dimension(dimension: number) {
@@ -276,6 +271,7 @@ export class Posing {
     this.#wishes.clear();
     this.#solved(this.session.moveAll(new Map(motions.entries())));
     this.onChange();
+    this.onReleased();
   }
 
   #solved(own: FrameReport): void {
@@ -283,6 +279,11 @@ export class Posing {
     this.#show();
     this.onSolved(report);
     this.stage.draw();
+  }
+
+  /** Begins a transition, after which the shape is at rest. */
+  #comeFrom(q: Float64Array): void {
+    this.#transition = new ShapeTransition(q, this.pulled?.q ?? this.session.q);
   }
 
   /** Coordinates of the shape that is shown. */

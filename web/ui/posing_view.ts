@@ -105,7 +105,7 @@ export async function posingView(
     readout.ask();
   };
   posing.onReleased = () => {
-    if (!posing.jiggle.moves) void polishing?.ask();
+    if (!posing.isOnTheWay && !posing.isDragging) void polishing?.ask();
   };
   /** Of kept points too: a better model may have them as handles when the page is loaded again. */
   const motions = () =>
@@ -121,8 +121,8 @@ export async function posingView(
       [
         ...list.map((button, handle) => mark(button, "aria-pressed", handle === posing.selected)),
         modes.set(posing.mode),
-        enable(undo, posing.canUndo),
-        enable(redo, posing.canRedo),
+        enable(undo, posing.history.canUndo),
+        enable(redo, posing.history.canRedo),
         mirror.update(),
       ].includes(true),
     () => hud.warn(warningOf(posing.session)),
@@ -187,7 +187,7 @@ export async function posingView(
     const session = await scene.sessionOf(better);
     const before = posing.session.model;
     const further = await FurtherHandles.between(module, before, better, pulling.points);
-    await further.prepare(() => [...posing.states, ...timeline.states]);
+    await further.prepare(() => [...posing.history.states, ...timeline.states]);
     const pulled = session && (await pulling.pullsIn(session));
     if (!session || scene.signal.aborted) return; // the view was left meanwhile
     ghosts.clear();
