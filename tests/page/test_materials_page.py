@@ -114,7 +114,7 @@ def test_a_part_has_a_colour_of_its_own_below_handles(page: Page) -> None:
     assert own == "rgb(124, 138, 60)"
     script = (
         "(vertices) => vertices.map((v) => [0, 1, 2].map((i) => "
-        "snapspace.choosing.surface.colorOf(v)[i]))"
+        "snapspace.choosing.surface.solid.geometry.attributes.vertexColor.data[3 * v + i]))"
     )
     inside = set(parts(page)["stiff 1"]["vertices"])
     foot = handles(page)["foot"]

@@ -72,3 +72,19 @@ def test_edges_of_faces_only_darken_the_surface(posing_page: Path, opened: OpenP
     page.page.keyboard.press("w")
     page.settle()
     assert (picture(page) == before).all()
+
+
+def test_backs_of_closed_bodies_are_not_drawn(posing_page: Path, opened: OpenPage) -> None:
+    """They showed as dark specks on silhouettes."""
+    page = opened(posing_page.as_uri(), sharp=True)
+    assert (picture(page)[..., 3] == 255).any()
+    page.run(
+        """(() => {
+            const { stage } = snapspace, [marks] = stage.root.children.slice(1);
+            marks.visible = false;
+            stage.camera.position.set(0, 0.1, 0);
+            stage.camera.lookAt(1, 0.1, 0);
+            stage.draw();
+        })()"""
+    )
+    assert not (picture(page)[..., 3] == 255).any(), "seen from inside"

@@ -43,7 +43,7 @@ export async function blendingView(
 ): Promise<View> {
   const session = await BlendingSession.create(module, model);
   const rests = posesOf(model);
-  const own = model.appearance ? new OwnLook(model.appearance, stage.renderer.graphics.mostTexels) : null;
+  const own = OwnLook.of(model.appearance, stage.renderer.graphics);
   const make = (space: BlendingModel["space"]) =>
     new Surface(stage.renderer.graphics, space, model.faces, model.diagonal, options.forceCpu, rests, own);
   const [elastic, straight] = [make(model.space), make(model.poseSpace)];

@@ -14,7 +14,7 @@ export interface Ghost {
 /** A shape that is where its coefficients put it. */
 export const still = (coefficients: ArrayLike<number>): Ghost => ({ coefficients, carriedBy: null });
 
-const OPACITY = 0.16;
+const OPACITY = 0.29; // as two layers of 0.16, the front and the back
 
 /** Pale shapes beside the present one. Surfaces are made when they are first needed. */
 export class Ghosts {

@@ -26,7 +26,7 @@ export class MeshScene {
 
   /** In several tasks: the mesh may be large. */
   static async create(stage: Stage, mesh: RestMesh, options: ViewOptions): Promise<MeshScene> {
-    const look = mesh.appearance && new OwnLook(mesh.appearance, stage.renderer.graphics.mostTexels);
+    const look = OwnLook.of(mesh.appearance, stage.renderer.graphics);
     await nextTask();
     // without modes: a shape at rest
     const space = {

@@ -1,5 +1,5 @@
 import type { Appearance } from "../engine/index.ts";
-import { Texture } from "../render/index.ts";
+import { Texture, type Graphics } from "../render/index.ts";
 
 const AS_IT_IS = { premultiplyAlpha: "none", colorSpaceConversion: "none" } as const;
 
@@ -13,8 +13,13 @@ export class OwnLook {
 
   #isDisposed = false;
 
+  /** Null for a body without. */
+  static of(appearance: Appearance | null, { mostTexels }: Graphics): OwnLook | null {
+    return appearance && new OwnLook(appearance, mostTexels);
+  }
+
   /** `mostTexels` is the longest side of a texture; larger pictures are scaled down. */
-  constructor(appearance: Appearance, mostTexels: number) {
+  private constructor(appearance: Appearance, mostTexels: number) {
     this.appearance = appearance;
     this.textures = appearance.textures.map(white);
     const decode = async (bytes: Uint8Array<ArrayBuffer>, k: number) => {

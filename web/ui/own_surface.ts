@@ -4,6 +4,7 @@ import type { Appearance, OwnMaterial } from "../engine/index.ts";
 import { Geometry, Mesh, type Material, type Texture } from "../render/index.ts";
 import { creaseRings } from "./crease_rings.ts";
 import { textureSize } from "./deformer.ts";
+import { encloses } from "./encloses.ts";
 import { integers } from "./gpu_pass.ts";
 import type { OwnLook } from "./own_look.ts";
 import { litSurface } from "./surface_materials.ts";
@@ -16,8 +17,12 @@ export class OwnSurface {
   readonly #geometry: Geometry;
   readonly #pairs: Texture | null;
 
-  constructor(look: OwnLook, uniforms: SurfaceUniforms) {
+  /** `shape` is where the surface's vertices are at rest. */
+  constructor(look: OwnLook, uniforms: SurfaceUniforms, shape: Float32Array) {
     const { appearance } = look;
+    const { points, triangles } = appearance;
+    const corners = triangles.map((point) => points[point]);
+    uniforms = { ...uniforms, encloses: { value: encloses(corners, shape) } };
     const rings = appearance.creases ? creaseRings(appearance) : null;
     this.#geometry = geometryOf(appearance, rings?.ranges ?? null);
     this.#pairs = rings && integers(rings.pairs, ...textureSize(rings.pairs.length / 2));

@@ -33,8 +33,7 @@ export class PosingScene {
 
   private constructor(stage: Stage, module: WebAssembly.Module, session: PosingSession, forceCpu: boolean) {
     [this.#module, this.#forceCpu, this.#model] = [module, forceCpu, session.model];
-    const { appearance } = session.model;
-    this.#look = appearance ? new OwnLook(appearance, stage.renderer.graphics.mostTexels) : null;
+    this.#look = OwnLook.of(session.model.appearance, stage.renderer.graphics);
     this.surfaces = [this.#surfaceOf(stage, session.model)];
     stage.root.add(this.surfaces[0].object);
     this.posing = new Posing(stage, session, this.surfaces[0]);

@@ -13,6 +13,7 @@ import { Geometry, Mesh, type Attribute, type Graphics } from "../render/index.t
 import { CpuDeformer } from "./cpu_deformer.ts";
 import type { Deformer } from "./deformer.ts";
 import { edgesOf } from "./edges.ts";
+import { encloses } from "./encloses.ts";
 import { GpuDeformer } from "./gpu_deformer.ts";
 import { Occlusion } from "./occlusion.ts";
 import type { OwnLook } from "./own_look.ts";
@@ -84,12 +85,13 @@ export class Surface {
       shownOcclusion: { value: this.#deformer.normals },
       isOccluded: { value: false },
       isShadowed: { value: true },
+      encloses: { value: encloses(faces, space.base) },
       opacity: { value: 1 },
     };
     const attributes = { position: { data: space.base, size: 3 }, vertexColor: this.#colors };
     this.solid = new Mesh(new Geometry(attributes, faces), clay(this.#uniforms));
     this.solid.castsShadow = true;
-    this.#own = look && new OwnSurface(look, this.#uniforms);
+    this.#own = look && new OwnSurface(look, this.#uniforms, space.base);
     this.object.add(this.solid, ...(this.#own ? [this.#own.object] : []));
     this.object.matrixAutoUpdate = false;
   }
@@ -238,12 +240,6 @@ export class Surface {
   paintSome(vertices: Iterable<number>, color: Color): void {
     for (const vertex of vertices) this.#put(vertex, color);
     this.solid.geometry.changed("vertexColor");
-  }
-
-  /** The colour that a vertex was painted in. */
-  colorOf(vertex: number): [number, number, number] {
-    const { data } = this.#colors;
-    return [data[3 * vertex], data[3 * vertex + 1], data[3 * vertex + 2]];
   }
 
   #put(vertex: number, { r, g, b }: Color): void {

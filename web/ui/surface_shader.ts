@@ -16,6 +16,8 @@ export type SurfaceUniforms = {
   isOccluded: Uniform<boolean>;
   /** Whether shadows fall on it. */
   isShadowed: Uniform<boolean>;
+  /** Whether it hides its own backs, which would show as specks on silhouettes. */
+  encloses: Uniform<boolean>;
   /** Less than one where it is faded. */
   opacity: Uniform<number>;
 };
@@ -26,7 +28,8 @@ export type SurfaceUniforms = {
  * texture. MOVED is moved before what it lies on, or behind it. */
 export type Part = "COLORS" | "RAMPS" | "POINTS" | "CREASED" | "PICTURE" | "MOVED";
 
-/** The model's matrix is a motion and a scale, so that normals turn as places do. */
+/** The model's matrix is a motion and a scale, so that normals turn as places do. `ramp` goes from pale sand by coral to
+ * plum: lightness falls all the way, so it reads without colours as well. */
 const VERTEX = `
 uniform mat4 model, view, projection;
 uniform sampler2D shownPositions, shownNormals, shownStrains, shownOcclusion;
@@ -58,7 +61,6 @@ uniform isampler2D ownPairs;
 ${ON_SCREEN}
 ivec2 cellOf(int vertex) { return ivec2(vertex % shownWidth, vertex / shownWidth); }
 vec3 placeOf(int vertex) { return texelFetch(shownPositions, cellOf(vertex), 0).xyz; }
-// from pale sand by coral to plum: lightness falls all the way, so it reads without colours as well
 vec3 ramp(float x) {
   float t = clamp(x, 0.0, 1.0);
   vec3 a = vec3(0.80, 0.76, 0.66), b = vec3(0.86, 0.47, 0.22), c = vec3(0.55, 0.09, 0.20), d = vec3(0.10, 0.02, 0.16);
@@ -105,7 +107,7 @@ const FRAGMENT = `
 ${LIGHTING}
 ${SCREEN}
 uniform float roughness, opacity, alphaCutoff;
-uniform bool isShadowed;
+uniform bool isShadowed, encloses;
 #ifdef PICTURE
 uniform sampler2D picture;
 #endif
@@ -118,7 +120,7 @@ void main() {
 #ifdef PICTURE
   matt *= texture(picture, corner);
 #endif
-  if (matt.a < alphaCutoff) discard;
+  if (matt.a < alphaCutoff || encloses && alphaCutoff == 0.0 && !gl_FrontFacing) discard;
   vec3 n = normalize(normal) * (gl_FrontFacing ? 1.0 : -1.0);
   shown = vec4(onScreen(toned(lit(matt.rgb, roughness, n, place, isShadowed, open))), opacity);
 }`;

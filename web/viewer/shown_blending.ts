@@ -22,7 +22,7 @@ export async function shownBlending(
 ): Promise<ShownModel> {
   const session = await BlendingSession.create(module, model);
   const { poses } = model;
-  const own = model.appearance ? new OwnLook(model.appearance, stage.renderer.graphics.mostTexels) : null;
+  const own = OwnLook.of(model.appearance, stage.renderer.graphics);
   const surface = new Surface(
     stage.renderer.graphics,
     model.space,
