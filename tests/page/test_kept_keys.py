@@ -22,6 +22,13 @@ def add_two_keys(page: Page) -> None:
     press(page, "Add key")
 
 
+def pictures(page: Page) -> list[str]:
+    """The pictures of two keys."""
+    page.wait("document.querySelectorAll('.key img').length === 2")
+    found: list[str] = page.run("[...document.querySelectorAll('.key img')].map(({ src }) => src)")
+    return found
+
+
 def loops(page: Page) -> bool:
     button = page.page.get_by_role("button", name="Loop", exact=True)
     return button.get_attribute("aria-pressed") == "true"
@@ -37,6 +44,13 @@ def test_a_reload_keeps_keys(posing_page: Path, opened: OpenPage) -> None:
     for shifts, there in zip(page.run(SHIFTS), before, strict=True):
         assert shifts == pytest.approx(there)
     assert loops(page)
+    shape = page.shown()
+    first, second = pictures(page)
+    assert first != second, "each is of its own state"
+    assert (page.shown() == shape).all(), "the present state is back"
+    press(page, "Add key")
+    assert page.run(f"{KEYS}.map((key) => key.time)") == [0, 1, 2], "no key is replaced"
+    press(page, "Delete")
     for _ in range(2):
         page.page.locator(".key").first.click()
         press(page, "Delete")

@@ -73,6 +73,7 @@ def test_keys_move_hold_and_go(posing_page: Path, opened: OpenPage) -> None:
     content = {"format": "snapspace-timeline", "version": 1, "kind": "posing", "keys": keys}
     opened_keys(page, content)
     page.wait(f"{TIMELINE}.timeline.keys.length === 3")
+    page.wait("document.querySelectorAll('.key img').length === 3")
     page.page.locator(".key").nth(1).click()
     when = page.page.get_by_label("Time of the key in seconds")
     when.fill("-1")

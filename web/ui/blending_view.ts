@@ -176,7 +176,9 @@ export async function blendingView(
       stage.draw();
     },
     settle: keep,
-    ghosts: (states) => ghosts.show(session.shapesAt(states).map(still)),
+    surface: elastic,
+    shapes: (states) => session.shapesAt(states).map(still),
+    ghosts,
     bare: () => () => {},
   });
   const takeAway = new ExportPanel(stage, {
@@ -253,7 +255,7 @@ export async function blendingView(
     dispose: () => {
       stop.abort();
       takeAway.dispose();
-      ghosts.clear();
+      timeline.dispose();
       stage.rest();
       look.legend.dispose();
       hud.dispose();

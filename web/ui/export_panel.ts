@@ -31,7 +31,7 @@ export class ExportPanel {
   readonly element: HTMLElement;
   readonly #stage: Stage;
   readonly #exported: Exported;
-  readonly #remark = h("p", { className: "figures", role: "status" });
+  readonly #remark = h("p", { className: "hint", role: "status" });
   readonly #transparent = toggle("Transparent", "No background", true, () => {});
   readonly #width = sizeField("Width in pixels", FIRST.width);
   readonly #height = sizeField("Height in pixels", FIRST.height);

@@ -26,7 +26,11 @@ export function posingTimeline(
     settle: () => {
       if (!posing.isDragging) posing.commit(); // else the end of the drag does
     },
-    ghosts: (states) => ghosts.show(shapesAt(posing.session, states)),
+    get surface() {
+      return posing.surface;
+    },
+    shapes: (states) => shapesAt(posing.session, states),
+    ghosts,
     bare,
   });
   return { panel, ghosts };

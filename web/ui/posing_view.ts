@@ -281,7 +281,7 @@ export async function posingView(
     dispose: () => {
       takeAway.dispose();
       pulling.dispose();
-      ghosts.clear();
+      timeline.dispose();
       polishing?.cancel();
       readout.dispose();
       stage.rest();

@@ -118,6 +118,11 @@ export class Surface {
     this.refresh();
   }
 
+  /** The coefficients, and the share of the path to the goal. */
+  get blended(): readonly [ArrayLike<number>, number] {
+    return [this.#coefficients, this.#share];
+  }
+
   /** Computes the shape, also what was lost on the graphics processor. */
   refresh(): void {
     this.#deformer.update(this.#coefficients, this.#share);

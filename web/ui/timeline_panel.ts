@@ -1,13 +1,14 @@
 import type { KeptKeys } from "./address.ts";
 import { download } from "./download.ts";
 import { enable, filePicker, h, mark, section, setText, toggle } from "./dom.ts";
+import type { Ghosts } from "./ghosts.ts";
+import { KeyPictures, type Pictured } from "./key_pictures.ts";
 import type { Stage } from "./stage.ts";
 import { EASINGS, Timeline, type Easing } from "./timeline.ts";
 import { continuedTimeline, readTimeline, timelineFile, timelineOf, type States } from "./timeline_file.ts";
-import { drawAt } from "./picture.ts";
 
 /** What a timeline moves. */
-export interface Animated<State> {
+export interface Animated<State> extends Pictured<State> {
   readonly name: string;
   readonly states: States<State>;
   /** Names of the handles, for a model that has some. */
@@ -20,13 +21,10 @@ export interface Animated<State> {
   show(state: State): void;
   /** After playing or a jump: the state stays, as after a drag. */
   settle(): void;
-  /** Shows states as ghosts, for a timeline that is skinned like an onion; none for an empty list. */
-  ghosts(states: readonly State[]): void;
-  /** Hides what is no part of the shape; the result shows it again. */
-  bare(): () => void;
+  /** For a timeline that is skinned like an onion. */
+  readonly ghosts: Ghosts;
 }
 
-const PICTURE = { width: 96, height: 72 };
 /** Seconds between a key and the next new one, and the least time that the track shows. */
 const [GAP, LEAST] = [1, 3];
 const LONGEST_FRAME = 0.1; // seconds: after a pause of the browser the film continues where it was
@@ -41,7 +39,7 @@ export class TimelinePanel<State> {
   #time = 0;
   #isPlaying = false;
   #onion = false;
-  readonly #pictures = new Map<State, string>();
+  readonly #pictures: KeyPictures<State>;
   readonly #play = toggle("Play keys", "Solves and shows every frame; P", false, (on) => this.play(on));
   readonly #add = h(
     "button",
@@ -59,10 +57,14 @@ export class TimelinePanel<State> {
   );
   readonly #save = h("button", { type: "button", onclick: () => this.#give() }, "Save keys");
   readonly #selected = h("div", { className: "row picture-size" });
-  readonly #fault = h("p", { className: "figures", role: "status" });
+  readonly #fault = h("p", { className: "hint", role: "status" });
 
   constructor(stage: Stage, animated: Animated<State>) {
     [this.#stage, this.#animated, this.#states] = [stage, animated, animated.states];
+    this.#pictures = new KeyPictures(stage, animated, (state, picture) => {
+      const key = this.states.indexOf(state);
+      this.#keys.children[key].prepend(imageOf(picture));
+    });
     this.#play.id = "play-keys";
     const onion = toggle("Onion skin", "The keys before and after, pale", false, (on) => {
       this.#onion = on;
@@ -107,10 +109,7 @@ export class TimelinePanel<State> {
   /** Continues with states of another kind, for instance of more handles, which `other` makes of those before. */
   become(states: States<State>, other: (state: State) => State): void {
     this.#states = states;
-    for (const { state } of this.#timeline.keys) {
-      const picture = this.#pictures.get(state);
-      if (picture) this.#pictures.set(other(state), picture);
-    }
+    for (const state of this.states) this.#pictures.become(state, other(state));
     this.#take(this.#timeline.map(other));
   }
 
@@ -124,6 +123,7 @@ export class TimelinePanel<State> {
         ? continuedTimeline(text, this.#states, handles)
         : { timeline: timelineOf(own, this.#states), lost: [] };
       this.#timeline = timeline; // kept for a reload once it is changed
+      this.#time = timeline.end; // the next key comes after the last one
       this.#show();
       if (lost.length > 0) this.#fault.textContent = `The keys go on without ${lost.join(", ")}.`;
     } catch (error) {
@@ -180,10 +180,14 @@ export class TimelinePanel<State> {
     const isNew = keys.length > 0 && this.#timeline.find(this.#time) < 0 && this.#time > end;
     const time = keys.length === 0 ? 0 : isNew || this.#time < end ? this.#time : end + GAP;
     const state = this.#animated.state();
-    const picture = this.#picture();
-    if (picture) this.#pictures.set(state, picture);
+    this.#pictures.take(state);
     this.#time = time;
     this.#take(this.#timeline.with(time, state));
+  }
+
+  dispose(): void {
+    this.#pictures.dispose();
+    this.#animated.ghosts.clear();
   }
 
   #delete(): void {
@@ -227,21 +231,12 @@ export class TimelinePanel<State> {
   /** Shows the keys next to the present time, where that is wanted. */
   #skin(): void {
     const { keys } = this.#timeline;
-    if (!this.#onion || this.#isPlaying || keys.length === 0) return this.#animated.ghosts([]);
+    const { ghosts } = this.#animated;
+    if (!this.#onion || this.#isPlaying || keys.length === 0) return ghosts.show([]);
     const before = keys.findLast((key) => key.time < this.#time - 1e-3);
     const after = keys.find((key) => key.time > this.#time + 1e-3);
-    this.#animated.ghosts([before, after].filter((key) => key !== undefined).map(({ state }) => state));
-  }
-
-  /** A small picture of the stage; null while the graphics are lost. */
-  #picture(): string | null {
-    if (this.#stage.renderer.graphics.isLost) return null;
-    const show = this.#animated.bare();
-    try {
-      return drawAt(this.#stage, PICTURE, null, (canvas) => canvas.toDataURL());
-    } finally {
-      show();
-    }
+    const beside = [before, after].filter((key) => key !== undefined).map(({ state }) => state);
+    ghosts.show(this.#animated.shapes(beside));
   }
 
   #show(): void {
@@ -252,8 +247,8 @@ export class TimelinePanel<State> {
     enable(this.#save, keys.length > 0);
     this.#keys.replaceChildren(
       ...keys.map(({ time, state }) => {
-        const picture = this.#pictures.get(state);
-        const image = picture ? [h("img", { src: picture, alt: "", draggable: false })] : [];
+        const picture = this.#pictures.of(state);
+        const image = picture ? [imageOf(picture)] : [];
         const act = () => {
           this.play(false);
           this.#go(time, true);
@@ -261,6 +256,7 @@ export class TimelinePanel<State> {
         return h("button", { type: "button", className: "key", onclick: act }, ...image, seconds(time));
       }),
     );
+    this.#pictures.want(this.states);
     this.#showTime();
     this.#skin();
   }
@@ -297,4 +293,5 @@ export class TimelinePanel<State> {
   }
 }
 
+const imageOf = (src: string) => h("img", { src, alt: "", draggable: false });
 const seconds = (time: number) => `${time.toFixed(time >= 10 ? 1 : 2)} s`;
