@@ -10,9 +10,11 @@ import pytest
 
 from snapspace import PosingModel
 
+from .choosing_page import press
 from .frames import session_at_frame
 from .pages import OpenPage, Page
 from .serving import served
+from .test_jiggle_page import SPEED, damp, jiggle
 from .test_posing_page import assert_shown
 from .test_take_away import taken
 
@@ -74,3 +76,23 @@ def test_a_released_handle_is_polished(
     page.page.get_by_role("button", name="Polish", exact=True).click()
     assert "polished" not in page.text(".hud")
     assert_shown(posing_model, page)
+
+
+def test_what_gravity_bends_is_not_polished(address: str, opened: OpenPage) -> None:
+    """The server would straighten it."""
+    page = opened(address)
+    rest = page.shown()
+    jiggle(page)
+    damp(page)
+    page.page.get_by_label("Gravity", exact=True).fill("3")
+    page.wait(f"{SPEED} > 0")
+    page.wait(f"{SPEED} === 0")
+    page.page.wait_for_timeout(300)
+    bent = page.shown()
+    assert np.abs(bent - rest).max() > 1e-3 and "%" not in page.text(".hud")
+    press(page, "Reset")
+    page.wait(f"{SPEED} > 0")
+    page.wait(f"{SPEED} === 0")
+    np.testing.assert_allclose(page.shown(), bent, atol=0.05 * np.abs(bent - rest).max())
+    page.page.get_by_label("Gravity", exact=True).fill("0")
+    page.wait("document.querySelector('.hud').innerText.includes('polished')")

@@ -42,6 +42,11 @@ export class Jiggle {
     if (!on && this.#moves) this.#isFirst = true;
   }
 
+  /** Whether gravity bends the body, of which static solutions know nothing. */
+  get isHeavy(): boolean {
+    return this.#isOn && this.dynamics.gravity.some((g) => g !== 0);
+  }
+
   /** Whether more pictures are needed. */
   get moves(): boolean {
     return this.#moves;
@@ -71,7 +76,7 @@ export class Jiggle {
       if (this.#still === STILL) {
         this.#still = 0;
         this.#moves = false;
-        return this.dynamics.gravity.some((g) => g !== 0) ? report : this.#swinging.settle();
+        return this.isHeavy ? report : this.#swinging.settle();
       }
     }
     return report;

@@ -67,10 +67,10 @@ export class Polishing {
     this.#posing.stage.draw();
   }
 
-  /** Asks for the present frame; the answer is dropped if another frame came meanwhile. Pulled shapes stay as they are:
-   * the server knows nothing of soft points. */
+  /** Asks for the present frame; the answer is dropped if another frame came meanwhile. Shapes that are pulled, or bent by
+   * gravity, stay as they are: the server knows nothing of that. */
   async ask(): Promise<void> {
-    if (!this.#isOn || this.#posing.pulled) return;
+    if (!this.#isOn || !isStatic(this.#posing)) return;
     const ticket = ++this.#ticket;
     const { session, surface, stage } = this.#posing;
     const handles = session.model.handles.map((_, handle) => session.motion(handle) as HandleMotion);
@@ -105,6 +105,11 @@ export class Polishing {
   get isOnTheWay(): boolean {
     return this.#begin !== null;
   }
+}
+
+/** Whether the handles alone make the shape. */
+export function isStatic({ pulled, jiggle }: Posing): boolean {
+  return !pulled && !jiggle.isHeavy;
 }
 
 /** Positions before a rigid motion x -> R x + t. */

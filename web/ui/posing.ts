@@ -220,10 +220,7 @@ export class Posing {
   commit(): void {
     const isCancelled = this.#isCancelled;
     this.release();
-    if (isCancelled) {
-      this.onReleased();
-      return;
-    }
+    if (isCancelled) return this.onReleased();
     this.solveWishes();
     this.#history.push(this.session.model.handles.map((_, handle) => this.motion(handle)));
     this.onChange();
@@ -248,9 +245,7 @@ export class Posing {
     this.#wishes.clear();
     this.session.reset();
     this.#history.push(this.motions);
-    this.#solved(this.session.solve());
-    this.onChange();
-    this.onReleased();
+    this.#jumped(this.session.solve());
   }
 
   set dimension(dimension: number) {
@@ -269,7 +264,13 @@ export class Posing {
   #goTo(motions: readonly Motion[] | undefined): void {
     if (!motions) return;
     this.#wishes.clear();
-    this.#solved(this.session.moveAll(new Map(motions.entries())));
+    this.#jumped(this.session.moveAll(new Map(motions.entries())));
+  }
+
+  /** After a solve for other motions than those that were dragged. */
+  #jumped(report: FrameReport): void {
+    this.#solved(report);
+    if (this.jiggle.isHeavy) this.jiggle.wake(); // solves know nothing of gravity
     this.onChange();
     this.onReleased();
   }

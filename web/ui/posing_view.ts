@@ -12,7 +12,7 @@ import { lookSection, qualitySection } from "./look_panel.ts";
 import type { Mode, Posing } from "./posing.ts";
 import { mirrorPose } from "./mirror_pose.ts";
 import { MotionFields } from "./motion_fields.ts";
-import { Polishing } from "./polishing.ts";
+import { isStatic, Polishing } from "./polishing.ts";
 import { listenToKeys } from "./posing_keys.ts";
 import { PosingScene, shownShape } from "./posing_scene.ts";
 import { posingTimeline } from "./posing_timeline.ts";
@@ -52,8 +52,8 @@ export async function posingView(
   const hud = new Hud(
     model.name,
     `${model.space.vertices.toLocaleString("en")} surface vertices`,
-    // nothing is known of the error of pulled shapes
-    () => (posing.pulled ? { certificate: () => null, outside: posing.session.outside } : posing.session),
+    // nothing is known of the error of shapes that are pulled or heavy
+    () => (isStatic(posing) ? posing.session : { certificate: () => null, outside: posing.session.outside }),
   );
   hud.dimension(model.dimension, model.dimension);
   let list = handleButtons(posing);
