@@ -87,7 +87,7 @@ export function samplingPanel(sampling: Sampling, diagonal: number): HTMLElement
       ),
       number(
         "Samples, at most",
-        { min: "20", max: "20000", step: "1", placeholder: "as many as it takes" },
+        { min: "20", max: "20000", step: "1", placeholder: "as needed" },
         sampling.most_samples,
         (value) => (sampling.most_samples = value),
       ),
