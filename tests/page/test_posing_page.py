@@ -240,6 +240,15 @@ def test_the_first_picture_has_the_size_of_its_place(posing_page: Path, opened: 
     browser.detach()
 
 
+def test_the_panel_is_beside_the_stage_where_the_window_is_wide(
+    posing_page: Path, opened: OpenPage
+) -> None:
+    """A phone that lies, or a page at twice its size."""
+    page = opened(posing_page.as_uri(), size=(667, 375))
+    place = "(({ clientWidth, clientHeight }) => [clientWidth, clientHeight])"
+    assert page.run(f"{place}(document.getElementById('stage'))") == [375, 375]
+
+
 def test_a_finger_drags_on_a_phone(posing_page: Path, opened: OpenPage) -> None:
     page = opened(
         posing_page.as_uri(), size=(390, 844), has_touch=True, is_mobile=True, color_scheme="dark"
