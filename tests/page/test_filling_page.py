@@ -9,14 +9,26 @@ import pytest
 
 from snapspace.filling import SurfaceFilling
 from snapspace.mesh.surface import compact_surface
+from snapspace.server.bodies import read_mesh
 from snapspace.server.body import Body
 from snapspace.server.opening import Opening
 from snapspace.server.shared_body import SharedBody
 from snapspace.stopping import check_stop
 
 from ..server.held_filling import HeldFilling
-from ..server.in_process import started
-from .choosing_page import BAR, cancel, places, press, selected, stroke, tool, wait_for_text
+from ..server.in_process import socket, started
+from .choosing_page import (
+    BAR,
+    TAKE_HANDLES,
+    cancel,
+    handles,
+    places,
+    press,
+    selected,
+    stroke,
+    tool,
+    wait_for_text,
+)
 from .pages import OpenPage, Page
 
 CAMERA = "snapspace.stage.camera.position.toArray()"
@@ -24,13 +36,19 @@ IS_LOOKED_AT = "snapspace.kind === 'surface'"
 RED = "v {} {} {} 1 0 0"
 
 
-def dropped(folder: Path, opened: OpenPage, filling: SurfaceFilling) -> Page:
-    """A page on which the surface of `BAR`, in red, has been dropped."""
+def red_bar(folder: Path) -> Path:
+    """A file with the surface of `BAR`."""
     file = folder / "bar.obj"
     vertices, faces = compact_surface(BAR.vertices, BAR.surface)
     lines = [RED.format(*vertex) for vertex in vertices]
     lines += [f"f {a} {b} {c}" for a, b, c in faces + 1]
     file.write_text("\n".join(lines))
+    return file
+
+
+def dropped(folder: Path, opened: OpenPage, filling: SurfaceFilling) -> Page:
+    """A page on which the surface of `BAR`, in red, has been dropped."""
+    file = red_bar(folder)
     page: Page = opened(started(filling=filling, folder=folder))
     page.page.set_input_files("#message input[type=file]", file)
     page.wait(IS_LOOKED_AT)
@@ -113,3 +131,43 @@ def test_what_waits_while_a_surface_is_read_is_said_once(
     wait_for_text(page, "#message", "Reading the mesh")
     text = page.text("#message")
     assert text.startswith("Opening bar") and text.count("Reading the mesh") == 1
+
+
+class MadeAnew(SharedBody):
+    """Makes its body for every workspace."""
+
+    def get(self, opening: Opening) -> Body:
+        return self._make(opening)
+
+
+#: The next connection asks for a new workspace, as if the server had been started again.
+FORGETFUL = """(() => {
+  window.WebSocket = class extends WebSocket {
+    constructor(address) {
+      address.searchParams.delete("workspace");
+      super(address);
+    }
+  };
+})()"""
+
+
+def test_what_was_chosen_is_sent_to_a_server_that_fills_the_surface_again(
+    tmp_path: Path, opened: OpenPage, chromium: object, filling: HeldFilling
+) -> None:
+    filling.let_go.set()
+    address = started(body=MadeAnew(read_mesh(red_bar(tmp_path), filling=filling)))
+    page: Page = opened(address)
+    page.wait("snapspace.kind === 'choosing'")
+    page.run(TAKE_HANDLES, [["foot", [0, 1, 2]], ["head", [5, 6, 7]]])
+    chosen = handles(page)
+    workspace = "new URLSearchParams(location.search).get('workspace')"
+    before = page.run(workspace)
+    page.run(FORGETFUL)
+    sent: list[str] = []
+    page.page.on("websocket", lambda to: to.on("framesent", lambda text: sent.append(text)))
+    with socket(address, before):
+        wait_for_text(page, "#connection", "open in another tab")
+        press(page, "Use it here")
+        page.wait(f"{workspace} !== {before!r}")
+        page.wait_for(lambda: any("head" in text for text in sent), "the choice is sent")
+    assert handles(page) == chosen

@@ -94,7 +94,7 @@ export class Workspace {
     document.body.append(notice.element);
     server.onConnection = (connection) => {
       notice.show(connection);
-      if (connection === "open") return;
+      if (connection === "open") return models.panel.fault(""); // which was that there is none
       this.#begun(null);
       if (!this.#mesh) this.#reading.lose();
     };
@@ -165,11 +165,6 @@ export class Workspace {
       return;
     }
     const isSame = this.#mesh?.name === given.name && this.#mesh.diagonal === given.diagonal;
-    if (this.#mesh && before?.id === given.id && before.mesh === given.mesh) {
-      models.job.set(given.job ?? 0, given.is_running ?? false); // the newest model and the progress follow
-      models.update();
-      return;
-    }
     if (this.#isBack && isSame) {
       if (models.job.isRunning)
         models.panel.fault("The server no longer has the computation. Compute again.");
@@ -177,6 +172,11 @@ export class Workspace {
       models.job.end();
       models.update();
       this.#keep();
+      return;
+    }
+    if (this.#mesh && before?.id === given.id && before.mesh === given.mesh) {
+      models.job.set(given.job ?? 0, given.is_running ?? false); // the newest model and the progress follow
+      models.update();
       return;
     }
     this.#isBack = false;
