@@ -153,3 +153,13 @@ def test_a_new_token_is_asked_for(bar_folder: Path, opened: OpenPage) -> None:
         page.wait("snapspace.kind === 'choosing'")
         assert page.run("snapspace.handles") == handles, "the new server has them as well"
         page.close()
+
+
+def test_sliders_say_what_is_beside_them(blending_page: Path, opened: OpenPage) -> None:
+    """Not a bare number such as 0.333 for 33 %."""
+    page = opened(blending_page.as_uri())
+    texts = page.run(
+        "[...document.querySelectorAll('#panel input[type=range]')]"
+        ".filter((input) => input.checkVisibility()).map((input) => input.ariaValueText)"
+    )
+    assert "33 %" in texts and "0.00 s" in texts and None not in texts

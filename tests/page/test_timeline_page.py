@@ -237,3 +237,22 @@ def test_weights_are_keys_too(
     page.wait(f"!{TIMELINE}.isPlaying")
     page.settle()
     assert page.run("snapspace.session.weights") == [0, 1, 0]
+
+
+def test_ghosts_stand_where_the_blend_does(
+    blending_model: InterpolationModel, blending_page: Path, opened: OpenPage
+) -> None:
+    page = opened(blending_page.as_uri())
+    button(page, "Add key").click()
+    name = blending_model.problem.poses.names[1]
+    page.page.get_by_role("slider", name=name).fill("0.9")
+    page.settle()
+    button(page, "Add key").click()
+    button(page, "Onion skin").click()
+    button(page, "Compare").click()
+    page.settle()
+    seen = "snapspace.stage.root.children.filter(({ visible }) => visible)"
+    blend, straight, ghost = page.run(
+        f"{seen}.map(({{ matrix }}) => [...matrix.elements.slice(12, 15)])"
+    )
+    assert ghost == blend != straight

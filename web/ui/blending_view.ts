@@ -1,6 +1,7 @@
 import { Vector3 } from "three";
 
 import { BlendingSession, type BlendingModel, type FrameReport } from "../engine/index.ts";
+import { IDENTITY } from "../engine/motion.ts";
 import { blendPanel } from "./blend_panel.ts";
 import { BlendPath, type Jump } from "./blend_path.ts";
 import { listenToBlendingKeys } from "./blending_keys.ts";
@@ -8,7 +9,7 @@ import { blendHash, keepHashSoon, KeptKeys } from "./address.ts";
 import { chooser, enable, h, mark, section, toggle } from "./dom.ts";
 import { CLAY } from "./handle_colors.ts";
 import { ExportPanel } from "./export_panel.ts";
-import { Ghosts, still } from "./ghosts.ts";
+import { Ghosts } from "./ghosts.ts";
 import { Hud } from "./hud.ts";
 import { Jiggle } from "./jiggle.ts";
 import { jigglePanel } from "./jiggle_panel.ts";
@@ -123,6 +124,7 @@ export async function blendingView(
     straight.object.matrix.makeTranslation(apart.clone().multiplyScalar(side));
     for (const surface of [elastic, straight]) surface.object.matrixWorldNeedsUpdate = true;
     stage.root.updateMatrixWorld();
+    timeline.skin();
   };
   const jiggle = new Jiggle({
     step: (dt, dynamics) => {
@@ -177,7 +179,11 @@ export async function blendingView(
     },
     settle: keep,
     surface: elastic,
-    shapes: (states) => session.shapesAt(states).map(still),
+    shapes: (states) => {
+      const { x, y, z } = new Vector3().setFromMatrixPosition(elastic.object.matrix);
+      const carriedBy = { ...IDENTITY, shift: [x, y, z] as const };
+      return session.shapesAt(states).map((coefficients) => ({ coefficients, carriedBy }));
+    },
     ghosts,
     bare: () => () => {},
   });

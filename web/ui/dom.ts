@@ -95,7 +95,7 @@ export function slider(
   shown: (value: number) => string,
   act: (value: number) => void,
 ) {
-  const text = h("output", {}, shown(range.value));
+  const text = h("output", {});
   const input = h("input", {
     type: "range",
     min: range.min,
@@ -103,13 +103,14 @@ export function slider(
     step: range.step,
     "aria-label": label,
   });
-  input.value = String(range.value);
+  const show = (value: number) => (text.textContent = input.ariaValueText = shown(value));
   const set = (value: number) => {
     input.value = String(value);
-    text.textContent = shown(value);
+    show(value);
   };
+  set(range.value);
   input.addEventListener("input", () => {
-    text.textContent = shown(input.valueAsNumber);
+    show(input.valueAsNumber);
     act(input.valueAsNumber);
   });
   const element = h("label", { className: "slider" }, h("span", {}, label), text, input);

@@ -8,11 +8,8 @@ import { surfaceVertex } from "./surface_shader.ts";
 /** A shape by its coefficients, and where it is carried to. */
 export interface Ghost {
   readonly coefficients: ArrayLike<number>;
-  readonly carriedBy: RigidMap | null;
+  readonly carriedBy: RigidMap;
 }
-
-/** A shape that is where its coefficients put it. */
-export const still = (coefficients: ArrayLike<number>): Ghost => ({ coefficients, carriedBy: null });
 
 const OPACITY = 0.29; // as two layers of 0.16, the front and the back
 
@@ -39,7 +36,7 @@ export class Ghosts {
       if (!surface.object.visible) return;
       const { coefficients, carriedBy } = ghosts[k];
       surface.show(coefficients);
-      if (carriedBy) surface.carry(carriedBy);
+      surface.carry(carriedBy);
     });
     this.#stage.draw();
   }

@@ -78,7 +78,7 @@ export class KeyPictures<State> {
     const [before, share] = surface.blended;
     const matrix = surface.object.matrix.clone();
     surface.show(coefficients);
-    if (carriedBy) surface.carry(carriedBy);
+    surface.carry(carriedBy);
     this.take(state);
     surface.show(before);
     surface.blend(share);

@@ -68,7 +68,7 @@ export class TimelinePanel<State> {
     this.#play.id = "play-keys";
     const onion = toggle("Onion skin", "The keys before and after, pale", false, (on) => {
       this.#onion = on;
-      this.#skin();
+      this.skin();
     });
     this.#when.setAttribute("aria-label", "Time of the key in seconds");
     this.#easing.setAttribute("aria-label", "How the next key is approached");
@@ -159,7 +159,7 @@ export class TimelinePanel<State> {
     mark(this.#play, "aria-pressed", on);
     if (on && this.#time >= this.#timeline.end) this.#time = this.#timeline.keys[0].time;
     if (!on) this.#animated.settle();
-    this.#skin();
+    this.skin();
     this.#stage.draw();
   }
 
@@ -225,11 +225,11 @@ export class TimelinePanel<State> {
     }
     if (isJump) this.#animated.settle();
     this.#showTime();
-    this.#skin();
+    this.skin();
   }
 
   /** Shows the keys next to the present time, where that is wanted. */
-  #skin(): void {
+  skin(): void {
     const { keys } = this.#timeline;
     const { ghosts } = this.#animated;
     if (!this.#onion || this.#isPlaying || keys.length === 0) return ghosts.show([]);
@@ -258,12 +258,13 @@ export class TimelinePanel<State> {
     );
     this.#pictures.want(this.states);
     this.#showTime();
-    this.#skin();
+    this.skin();
   }
 
   #showTime(): void {
     setText(this.#clock, seconds(this.#time));
     this.#track.value = String(this.#time);
+    this.#track.ariaValueText = seconds(this.#time);
     const at = this.#timeline.find(this.#time);
     [...this.#keys.children].forEach((key, k) => mark(key as HTMLElement, "aria-current", k === at));
     if (this.#selected.hidden !== at < 0) this.#selected.hidden = at < 0;

@@ -99,6 +99,7 @@ function weightRow(weigh: (weight: number) => void, remove: () => void) {
     picture.style.visibility = address ? "" : "hidden";
     input.value = String(weight);
     shown = weight;
+    mark(input, "aria-valuetext", `${Math.round(100 * weight)} %`);
     if (!isTyped) showNumber();
   };
   return { element, input, remove: button, extend, show };
