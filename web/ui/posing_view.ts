@@ -163,15 +163,10 @@ export async function posingView(
     if (posing.isOnTheWay || polishing?.isOnTheWay || timeline.isPlaying) stage.draw();
   };
 
-  const polish = toggle(
-    "Polish",
-    "Improves the shape in the full space when a handle is released",
-    true,
-    (on) => {
-      if (polishing) polishing.isOn = on;
-      if (!on) hud.assess();
-    },
-  );
+  const polish = toggle("Polish", "Improves every shape at rest in the full space", true, (on) => {
+    if (polishing) polishing.isOn = on;
+    if (!on) hud.assess();
+  });
   const others = polishing ? [h("div", { className: "row" }, polish)] : [];
   const qualityOf = (whole: number) =>
     qualitySection(
