@@ -34,6 +34,8 @@ def polished(page: Page, model: PosingModel) -> np.ndarray:
     session = session_at_frame(page, model)
     found = session.polish(iterations=10)
     assert f"moved {100 * found.moved_relative:.2g}"[:7] in page.text(".hud")
+    level = page.run("document.querySelector('.badge').dataset.level")
+    assert level == ("rough" if found.moved_relative > 0.01 else "good"), "it may have moved far"
     shape: np.ndarray = found.vertices[model.problem.mesh.surface_vertices]
     return shape
 

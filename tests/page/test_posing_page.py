@@ -275,3 +275,16 @@ def test_a_finger_drags_on_a_phone(posing_page: Path, opened: OpenPage) -> None:
     left_right = "(({ left, right }) => [left, right])(panel.getBoundingClientRect())"
     assert page.run(left_right) == [0, 390], "the controls fit the width"
     assert page.run("document.documentElement.dataset.theme") == "dark"
+
+
+def test_the_theme_that_was_chosen_outlives_a_reload(posing_page: Path, opened: OpenPage) -> None:
+    page = opened(posing_page.as_uri())
+    theme = "document.documentElement.dataset.theme"
+    dark = page.page.get_by_role("button", name="Dark", exact=True)
+    assert page.run(theme) == "light"
+    dark.click()
+    page.page.reload()
+    page.wait("Boolean(snapspace.ready)")
+    assert page.run(theme) == "dark" and dark.get_attribute("aria-pressed") == "true"
+    dark.click()  # other tests use this tab
+    assert page.run(theme) == "light"

@@ -32,11 +32,13 @@ export class Badge {
     if (this.#isPolished) this.hide();
   }
 
-  /** Shows that full iterations moved the shape, by this share of the displacement. */
+  /** Shows that full iterations moved the shape, by this share of the displacement. Where they moved it far, they have not
+   * ended near the solution. */
   polished(moved: number | null): void {
     const by = moved === null ? "" : `, moved ${percent(moved)}`;
     this.#isPolished = true;
-    this.#set("good", `polished${by}`, "the live shape after a few iterations in the full space");
+    const level = (moved ?? 0) > GOOD ? "rough" : "good";
+    this.#set(level, `polished${by}`, "the live shape after a few iterations in the full space");
   }
 
   hide(): void {
