@@ -77,6 +77,7 @@ inline Report Bfgs::minimize(Objective& objective, int d, double* q, const doubl
     return report;
   }
   set_direction();
+  step_ = 1.0;
   bool pristine = false;
   int idle_steps = 0;  // consecutive accepted steps that did not change the value
   while (report.iterations < stop.max_iterations) {
@@ -103,6 +104,7 @@ inline Report Bfgs::minimize(Objective& objective, int d, double* q, const doubl
       }
       start_from(d_, fallback);
       set_direction();
+      step_ = 1.0;
       pristine = true;
       continue;
     }
@@ -143,7 +145,9 @@ inline bool Bfgs::line_search(Objective& objective, const double* q, Report& rep
   constexpr double kCurvature = 0.9;
   double near = 0.0;
   double far = std::numeric_limits<double>::infinity();
-  step_ = 1.0;
+  // After a step that had to be shortened the next ones would often be too long as well: the first
+  // trial goes back to one by the power 3/4 of the step before.
+  step_ = std::min(1.0, std::sqrt(step_ * std::sqrt(step_)));
   for (int trial = 0; trial < kMaxTrials; ++trial) {
     if (report.evaluations >= stop.max_evaluations) return false;
     const double trial_slope = evaluate(objective, q, step_, report);
@@ -154,8 +158,8 @@ inline bool Bfgs::line_search(Objective& objective, const double* q, Report& rep
       // no nearer point is known.
       const double parabola =
           -0.5 * slope * step_ * step_ / (trial_value_ - report.value - slope * step_);
-      const bool usable = finite && near == 0.0 && parabola > 0.1 * step_ && parabola < 0.5 * step_;
-      step_ = usable ? parabola : 0.5 * (near + far);
+      const bool usable = finite && near == 0.0;
+      step_ = usable ? std::clamp(parabola, 0.1 * step_, 0.5 * step_) : 0.5 * (near + far);
     } else if (trial_slope < kCurvature * slope) {
       near = step_;
       step_ = std::isinf(far) ? 2.0 * step_ : 0.5 * (near + far);

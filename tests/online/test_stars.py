@@ -75,7 +75,7 @@ def test_blends_are_those_of_the_core(library: ctypes.CDLL, arrays: Arrays) -> N
         assert library.snapspace_set_weights(session, address(w)) == 0
         assert library.snapspace_value(session, address(q), REFERENCE(value)) == 0
         assert value.value == pytest.approx(blended.value_and_gradient(q)[0], rel=1e-12)
-        options = Options(method, 1e-10, 1.0, 1.0, 300, 500)
+        options = Options(method, 1e-12, 1.0, 1.0, 300, 500)
         assert library.snapspace_solve(session, REFERENCE(options), REFERENCE(report)) == 0
         found = np.zeros(D)
         assert library.snapspace_get_q(session, address(found)) == 0
