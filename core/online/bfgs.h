@@ -77,7 +77,6 @@ inline Report Bfgs::minimize(Objective& objective, int d, double* q, const doubl
     return report;
   }
   set_direction();
-  step_ = 1.0;
   bool pristine = false;
   int idle_steps = 0;  // consecutive accepted steps that did not change the value
   while (report.iterations < stop.max_iterations) {
@@ -104,7 +103,6 @@ inline Report Bfgs::minimize(Objective& objective, int d, double* q, const doubl
       }
       start_from(d_, fallback);
       set_direction();
-      step_ = 1.0;
       pristine = true;
       continue;
     }
@@ -191,9 +189,11 @@ inline void Bfgs::multiply(const double* gradient) {
   pending_ = false;
 }
 
+/// Sets the direction and the step for the first line search.
 inline void Bfgs::set_direction() {
   multiply(gradient_.data());
   for (int i = 0; i < d_; ++i) direction_[i] = -product_[i];
+  step_ = 1.0;
 }
 
 /// Updates the inverse H by H += (1 + y.Hy / s.y) s s^T / s.y - (Hy s^T + s (Hy)^T) / s.y, with s

@@ -39,7 +39,7 @@ export async function fromFile(file: File): Promise<Source> {
 }
 
 function nameOf(path: string): string {
-  return path.replace(/^.*\//, "").replace(/\.snapspace$/, "");
+  return path.replace(/^.*\/|\.snapspace$/g, "");
 }
 
 function damaged(): UnreadableModel {

@@ -225,7 +225,7 @@ async function fetched(address: string, base: string): Promise<{ bytes: ArrayBuf
     throw new UnreadableModel(
       `There is no model at ${url.href} (${answer ? `status ${answer.status}` : "no answer"}).`,
     );
-  const name = decodeURIComponent(url.pathname.replace(/^.*\//, "").replace(/\.snapspace$/, ""));
+  const name = decodeURIComponent(url.pathname.replace(/^.*\/|\.snapspace$/g, ""));
   return { bytes: await answer.arrayBuffer(), name };
 }
 

@@ -11,23 +11,22 @@ export const STYLE = `
   aspect-ratio: 4 / 3;
   overflow: hidden;
   color: var(--snapspace-ink);
-  font: 14px/1.45 system-ui, "Segoe UI", Roboto, "Helvetica Neue", sans-serif;
+  font: 14px/1.45 system-ui, sans-serif;
 }
-:host([hidden]) { display: none; }
 * { box-sizing: border-box; }
-[hidden] { display: none !important; }
+:host([hidden]), [hidden] { display: none !important; }
 .stage, .poster { position: absolute; inset: 0; }
 .poster { width: 100%; height: 100%; object-fit: contain; pointer-events: none; }
 canvas { display: block; width: 100%; height: 100%; touch-action: none; outline: none; }
 canvas:focus-visible { outline: 2px solid var(--snapspace-focus); outline-offset: -2px; }
-.message {
-  position: absolute; inset: auto 0 0; margin: 0; padding: 10px 14px;
-  background: var(--snapspace-card); text-align: center;
+.message, .bar {
+  position: absolute; inset: auto 0 0; margin: 0; padding: 8px 12px;
+  background: var(--snapspace-card);
 }
+.message { text-align: center; }
 .bar {
-  position: absolute; inset: auto 0 0; max-height: 45%; overflow-y: auto;
+  max-height: 45%; overflow-y: auto; border-top: 1px solid var(--snapspace-line);
   display: flex; flex-wrap: wrap; gap: 6px 14px; align-items: center; justify-content: center;
-  padding: 8px 12px; background: var(--snapspace-card); border-top: 1px solid var(--snapspace-line);
 }
 button {
   font: inherit; color: inherit; min-height: 34px; padding: 4px 12px; cursor: pointer;
