@@ -80,6 +80,18 @@ def test_a_released_handle_is_polished(
     assert_shown(posing_model, page)
 
 
+def test_there_is_nothing_to_say_at_rest(address: str, opened: OpenPage) -> None:
+    """The shape at rest is the full solution."""
+    page = opened(address)
+    page.drag(page.run("snapspace.handle(1)"), -40, -50)
+    page.wait("document.querySelector('.hud').innerText.includes('polished, moved')")
+    page.page.keyboard.press("r")
+    page.wait("document.querySelector('.badge').hidden")
+    page.rest()
+    page.page.wait_for_timeout(500)  # the badge of a polish would be there
+    assert page.run("document.querySelector('.badge').hidden")
+
+
 def test_what_gravity_bends_is_not_polished(address: str, opened: OpenPage) -> None:
     """The server would straighten it."""
     page = opened(address)
@@ -97,4 +109,5 @@ def test_what_gravity_bends_is_not_polished(address: str, opened: OpenPage) -> N
     page.wait(f"{SPEED} === 0")
     np.testing.assert_allclose(page.shown(), bent, atol=0.05 * np.abs(bent - rest).max())
     page.page.get_by_label("Gravity", exact=True).fill("0")
+    page.drag(page.run("snapspace.handle(1)"), -40, -50)
     page.wait("document.querySelector('.hud').innerText.includes('polished')")

@@ -1,4 +1,4 @@
-import type { RigidMap } from "../engine/index.ts";
+import type { PosingSession, RigidMap } from "../engine/index.ts";
 import type { HandleMotion } from "../engine/messages.ts";
 import type { Posing } from "./posing.ts";
 import { Refused, type Server } from "./server.ts";
@@ -21,6 +21,7 @@ interface Improved {
 export type Polish = (frame: Frame) => Promise<Improved>;
 
 const MILLISECONDS = 150; // from the live shape to the improved one
+const REST = 1e-6; // coordinates at rest, relative to those of a displacement of a tenth of the diagonal
 
 /** Polishes at a server; `model()` is the number of the model there at that time. */
 export function polishAt(server: Server, model: () => number): Polish {
@@ -68,11 +69,11 @@ export class Polishing {
   }
 
   /** Asks for the present frame; the answer is dropped if another frame came meanwhile. Shapes that are pulled, or bent by
-   * gravity, stay as they are: the server knows nothing of that. */
+   * gravity, stay as they are: the server knows nothing of that. The shape at rest is the full solution. */
   async ask(): Promise<void> {
-    if (!this.#isOn || !isStatic(this.#posing)) return;
-    const ticket = ++this.#ticket;
     const { session, surface, stage } = this.#posing;
+    if (!this.#isOn || !isStatic(this.#posing) || isAtRest(session)) return;
+    const ticket = ++this.#ticket;
     const handles = session.model.handles.map((_, handle) => session.motion(handle) as HandleMotion);
     try {
       const { positions, moved } = await this.#polish({ handles, q: [...session.q] });
@@ -110,6 +111,11 @@ export class Polishing {
 /** Whether the handles alone make the shape. */
 export function isStatic({ pulled, jiggle }: Posing): boolean {
   return !pulled && !jiggle.isHeavy;
+}
+
+/** Whether the shape is that at rest, perhaps carried along by all handles. */
+function isAtRest({ q, model }: PosingSession): boolean {
+  return Math.hypot(...q) <= REST * model.coordinateScale;
 }
 
 /** Positions before a rigid motion x -> R x + t. */
