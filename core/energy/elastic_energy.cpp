@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "element/rest_shell.h"
+#include "energy/power_of_two.h"
 #include "energy/shell_strain.h"
 #include "material/element_hessian.h"
 #include "material/matrix3.h"
@@ -48,7 +49,7 @@ ElasticEnergy::ElasticEnergy(RestShape shape, MaterialField field)
   double largest = 0.0;
   for (int t = 0; t < tets(); ++t)
     largest = std::max(largest, largest_force(rest.tets[t], view.small_strains(t).stiffness()));
-  if (largest > 0.0 && std::isfinite(largest)) force_unit_ = std::ldexp(1.0, std::ilogb(largest));
+  force_unit_ = power_of_two(largest);
   for (int t = 0; t < tets(); ++t) {
     const double volume = rest.tets[t].volume;
     scale_moduli(view.kind, view.of(t), volume, &moduli_[t * std::size_t(count)]);

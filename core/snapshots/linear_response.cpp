@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "energy/power_of_two.h"
 #include "memory/scratch.h"
 #include "simd/lanes.h"
 #include "threads/flush_denormals.h"
@@ -42,7 +43,7 @@ double unit_of(const PosingSystem& system, const double* input) {
   for (std::size_t k = 0; k < system.pinned.size(); ++k)
     for (int c = 0; c < 3; ++c)
       largest = std::max(largest, std::abs(2.0 * system.weights[k] * input[3 * k + c]));
-  return largest > 0.0 ? std::ldexp(1.0, std::ilogb(largest)) : 1.0;
+  return power_of_two(largest);
 }
 
 bool negligible(ResponseSums gain, ResponseSums all, double least) {

@@ -38,7 +38,8 @@ export async function fromFile(file: File): Promise<Source> {
   return { bytes: await file.arrayBuffer(), name: nameOf(file.name) };
 }
 
-function nameOf(path: string): string {
+/** The name of the model at a path. */
+export function nameOf(path: string): string {
   return path.replace(/^.*\/|\.snapspace$/g, "");
 }
 

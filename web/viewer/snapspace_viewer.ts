@@ -2,6 +2,7 @@ import { readModel, UnreadableModel } from "../engine/index.ts";
 import { compiledCore } from "../ui/core_bytes.ts";
 import { h } from "../ui/dom.ts";
 import { png } from "../ui/picture.ts";
+import { nameOf } from "../ui/source.ts";
 import { Stage, type Axis } from "../ui/stage.ts";
 import type { HandleMotion, ModelInfo, SnapspaceViewerElement } from "./public.ts";
 import { shownBlending } from "./shown_blending.ts";
@@ -225,7 +226,7 @@ async function fetched(address: string, base: string): Promise<{ bytes: ArrayBuf
     throw new UnreadableModel(
       `There is no model at ${url.href} (${answer ? `status ${answer.status}` : "no answer"}).`,
     );
-  const name = decodeURIComponent(url.pathname.replace(/^.*\/|\.snapspace$/g, ""));
+  const name = decodeURIComponent(nameOf(url.pathname));
   return { bytes: await answer.arrayBuffer(), name };
 }
 
