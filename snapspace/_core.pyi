@@ -401,6 +401,11 @@ class InterpolationSystem(SampleSystem):
         First Piola-Kirchhoff stress against pose 0 times its volume (m, 9) and energy (m,) of each tet, and the gradient (3n,) of the sum of energies.
         """
 
+    def tet_hessians(self, u: NDArray[numpy.float64], weights: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        """
+        Hessian (m, 9, 9) of each tet's energy by its displacement gradient against pose 0.
+        """
+
 class SoftModes:
     """
     Deformations that the scalar factor of a posing system mistakes for stiff, for the seed of L-BFGS: the lowest modes of its Hessian at rest against the scalar matrix.

@@ -78,9 +78,10 @@ void bind_star_hats(nb::module_& m) {
                 "needs shapes (k, n, 3) and triangles (m, 3)");
         require_below(triangles, shapes.shape(1), "a triangle has a vertex index out of range");
         const ReleasedGil released;
-        return star_hats(shapes.data(), static_cast<int>(shapes.shape(0)),
-                         static_cast<int>(shapes.shape(1)), triangles.data(),
-                         static_cast<int>(triangles.shape(0)), radius);
+        return star_hats(EdgeGraph(shapes.data(), static_cast<int>(shapes.shape(0)),
+                                   static_cast<int>(shapes.shape(1)), triangles.data(),
+                                   static_cast<int>(triangles.shape(0)), 3),
+                         radius);
       },
       nb::arg("shapes"), nb::arg("triangles").noconvert(), nb::arg("radius"),
       "Stars whose centers are at least a radius apart along edges, and less than that from every "

@@ -108,6 +108,27 @@ void bind_systems(nb::module_& m) {
       nb::arg("u"), nb::arg("weights"),
       "First Piola-Kirchhoff stress against pose 0 times its volume (m, 9) and energy (m,) of each "
       "tet, and the gradient (3n,) of the sum of energies.");
+  interpolation.def(
+      "tet_hessians",
+      [](const InterpolationSystem& self, VectorIn u, VectorIn weights) {
+        require(u.size() == static_cast<std::size_t>(self.size()) &&
+                    weights.size() == static_cast<std::size_t>(self.input_size()),
+                "needs a (3n,) vector and (input_size,) weights");
+        require(self.energy->has_tet_hessians(), "the density has no Hessians of blends");
+        const auto tets = static_cast<std::size_t>(self.energy->tets());
+        DoublesOut result = new_array<double>({tets, 9, 9});
+        std::vector<double> shape(u.size());
+        self.numbering.to_internal(u.data(), shape.data());
+        for (std::size_t t = 0; t < tets; ++t) {
+          double H[9][9];
+          self.energy->tet_hessian(static_cast<int>(t), weights.data(), shape.data(), H);
+          std::copy_n(&H[0][0], 81,
+                      result.data() + 81 * static_cast<std::size_t>(self.tet_order[t]));
+        }
+        return result;
+      },
+      nb::arg("u"), nb::arg("weights"),
+      "Hessian (m, 9, 9) of each tet's energy by its displacement gradient against pose 0.");
 }
 
 }  // namespace snapspace

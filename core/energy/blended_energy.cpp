@@ -24,6 +24,9 @@ bool collapses(int kind) {
   return Densities::with(kind, []<class Density>() { return PoseBlend<Density>::kCollapses; });
 }
 
+template <class Density>
+constexpr bool kHasTetHessian = requires { &Density::Blend::hessian; };
+
 }  // namespace
 
 BlendedEnergy::BlendedEnergy(const double* poses, int count, int vertex_count,
@@ -174,6 +177,26 @@ void BlendedEnergy::tet_stresses(const double* weights, const double* u, double*
       scatter_stress(energies_[0].rest.tets[t], P, gradient);
       for (const auto& row : P)
         for (const double entry : row) *stresses++ = entry;
+    }
+  });
+}
+
+bool BlendedEnergy::has_tet_hessians() const {
+  return Densities::with(kind(), []<class Density>() { return kHasTetHessian<Density>; });
+}
+
+void BlendedEnergy::tet_hessian(int tet, const double* weights, const double* u,
+                                double H[9][9]) const {
+  double G[3][3];
+  displacement_gradient(energies_[0].rest.tets[tet], u, G);
+  Densities::with(kind(), [&]<class Density>() {
+    if constexpr (kHasTetHessian<Density>) {
+      constexpr int kNumbers = PoseBlend<Density>::numbers();
+      const double* pose = numbers_.data() + static_cast<std::size_t>(tet) * poses() * kNumbers;
+      double sums[kNumbers] = {};
+      for (int k = 0; k < poses(); ++k, pose += kNumbers)
+        for (int i = 0; i < kNumbers; ++i) sums[i] += weights[k] * pose[i];
+      Density::Blend::hessian(sums, G, H);
     }
   });
 }

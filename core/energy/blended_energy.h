@@ -53,6 +53,12 @@ class BlendedEnergy {
   void tet_stresses(const double* weights, const double* u, double* stresses, double* energies,
                     double* gradient) const;
 
+  /// Whether there are Hessians of single tets.
+  [[nodiscard]] bool has_tet_hessians() const;
+  /// The Hessian (9 x 9) of a tet's energy by its displacement gradient against pose 0, at u for
+  /// these weights; only if has_tet_hessians().
+  void tet_hessian(int tet, const double* weights, const double* u, double H[9][9]) const;
+
  private:
   /// Up to this many poses the numbers of a tet are summed in every evaluation: samples in one pack
   /// share the numbers of the poses, whereas each would have to read its own sums.

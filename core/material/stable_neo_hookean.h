@@ -94,6 +94,31 @@ struct StableNeoHookean {
       return numbers[8] + (square + volume) + half * pressure * change.determinant;
     }
 
+    /// The Hessian by the entries of G: M, alpha cof F (x) cof F, and the derivative of cof F.
+    static void hessian(const double* numbers, const double G[3][3], double H[9][9]) {
+      const VolumeChange<double> change(G);
+      const double gamma = numbers[6], alpha = numbers[7];
+      const double both = gamma + alpha * change.determinant;
+      double cofactors[9];
+      for (int e = 0; e < 9; ++e)
+        cofactors[e] = change.cofactors[e / 3][e % 3] + (e % 4 == 0 ? 1.0 : 0.0);
+      for (int e = 0; e < 9; ++e)
+        for (int f = 0; f < 9; ++f) H[e][f] = alpha * cofactors[e] * cofactors[f];
+      for (int e = 0; e < 6; ++e)
+        for (int r = 0; r < 3; ++r) {
+          const int i = 3 * r + kEntries[e][0], j = 3 * r + kEntries[e][1];
+          H[i][j] += i == j ? numbers[e] - gamma : numbers[e];
+          if (i != j) H[j][i] += numbers[e];
+        }
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) {
+          const int s = (r + 1) % 3, t = (r + 2) % 3, d = (c + 1) % 3, f = (c + 2) % 3;
+          const double entry = both * (G[r][c] + (r == c ? 1.0 : 0.0));  // of F
+          H[3 * s + d][3 * t + f] += entry, H[3 * t + f][3 * s + d] += entry;
+          H[3 * s + f][3 * t + d] -= entry, H[3 * t + d][3 * s + f] -= entry;
+        }
+    }
+
    private:
     static constexpr int kEntries[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
   };

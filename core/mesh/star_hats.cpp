@@ -22,41 +22,15 @@ constexpr std::int64_t kRadius = 1 << 20;
 constexpr std::int64_t kReach = static_cast<std::int64_t>(kSupport * kRadius);
 constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
 
-/// The edges at each vertex and their lengths.
-class EdgeGraph {
+/// The edges of a mesh, with lengths relative to a radius.
+class Distances {
  public:
-  EdgeGraph(const double* shapes, int count, int vertex_count, const std::int32_t* triangles,
-            int triangle_count, double radius)
-      : first_(static_cast<std::size_t>(vertex_count) + 1, 0), distances_(vertex_count, kFar) {
-    std::vector<std::pair<std::int32_t, std::int32_t>> edges;
-    edges.reserve(6 * static_cast<std::size_t>(triangle_count));
-    for (int t = 0; t < triangle_count; ++t)
-      for (int k = 0; k < 3; ++k) {
-        const std::int32_t a = triangles[3 * t + k], b = triangles[3 * t + (k + 1) % 3];
-        edges.emplace_back(a, b);
-        edges.emplace_back(b, a);
-      }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    for (const auto& [from, to] : edges) {
-      ++first_[from + 1];
-      ends_.push_back(to);
-      double length = 0.0;
-      for (int k = 0; k < count; ++k) {
-        const double* shape = shapes + 3 * static_cast<std::size_t>(k) * vertex_count;
-        double square = 0.0;
-        for (int r = 0; r < 3; ++r) {
-          const double side = shape[3 * static_cast<std::size_t>(to) + r] -
-                              shape[3 * static_cast<std::size_t>(from) + r];
-          square += side * side;
-        }
-        length += std::sqrt(square) / count;
-      }
-      // no shorter than one, and so long that sums fit
+  Distances(const EdgeGraph& edges, double radius)
+      : first_(edges.first), ends_(edges.ends), distances_(edges.vertices(), kFar) {
+    lengths_.reserve(edges.lengths.size());
+    for (const double length : edges.lengths)  // no shorter than one, and so long that sums fit
       lengths_.push_back(std::clamp<std::int64_t>(
           std::llround(std::min(length / radius, 2.0 * kSupport) * kRadius), 1, 2 * kReach));
-    }
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
   }
 
   /// Vertices less than kReach from a vertex along edges (Dijkstra 1959), and their distances.
@@ -83,17 +57,16 @@ class EdgeGraph {
   }
 
  private:
-  std::vector<int> first_;
-  std::vector<std::int32_t> ends_;
+  const std::vector<std::int32_t>&first_, &ends_;  // of the edges
   std::vector<std::int64_t> lengths_, distances_;  // all distances are kFar between calls
   std::vector<std::pair<std::int32_t, std::int64_t>> found_;
 };
 
 }  // namespace
 
-StarHats star_hats(const double* shapes, int count, int vertex_count, const std::int32_t* triangles,
-                   int triangle_count, double radius) {
-  EdgeGraph graph(shapes, count, vertex_count, triangles, triangle_count, radius);
+StarHats star_hats(const EdgeGraph& edges, double radius) {
+  const int vertex_count = edges.vertices();
+  Distances distances(edges, radius);
   StarHats hats;
   hats.first.push_back(0);
   std::vector<bool> covered(vertex_count, false);
@@ -101,7 +74,7 @@ StarHats star_hats(const double* shapes, int count, int vertex_count, const std:
   for (std::int32_t center = 0; center < vertex_count; ++center) {
     if (covered[center]) continue;
     covered[center] = true;
-    auto reached = graph.around(center);
+    auto reached = distances.around(center);
     std::sort(reached.begin() + 1, reached.end());  // the center is the first one
     for (const auto& [vertex, distance] : reached) {
       if (distance < kRadius) covered[vertex] = true;

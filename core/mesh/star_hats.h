@@ -2,6 +2,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesh/edge_graph.h"
+
 namespace snapspace {
 
 /// Weights of the vertices in the stars of a surface: hat functions that sum to one at every
@@ -23,9 +25,6 @@ struct StarHats {
 /// Stars whose centers are at least `radius` apart along the edges, and less than that from every
 /// vertex. A hat falls from its center as (1 - distance / (support * radius))^2, divided by the sum
 /// of all hats at the vertex. Where edges are longer than that, it is a hat of one ring.
-/// @param shapes  count x n x 3; an edge is as long as on average in all of them
-/// @param triangles  m x 3
-[[nodiscard]] StarHats star_hats(const double* shapes, int count, int vertex_count,
-                                 const std::int32_t* triangles, int triangle_count, double radius);
+[[nodiscard]] StarHats star_hats(const EdgeGraph& edges, double radius);
 
 }  // namespace snapspace

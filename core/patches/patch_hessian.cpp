@@ -12,9 +12,8 @@ namespace snapspace {
 
 namespace {
 
-constexpr int kMotions = RigidPatches::kMotions;
-/// Share of the Dirichlet energy's Hessian that is always added, and its growth.
-constexpr double kShift = 3e-3, kMoreShift = 4.0, kMostShift = 1e6;
+/// Growth of the shift.
+constexpr double kMoreShift = 4.0, kMostShift = 1e6;
 /// Least sum of two stretches of a star: with less its rotation is hardly defined.
 constexpr double kLeastStretches = 0.05;
 
@@ -95,12 +94,11 @@ std::size_t PatchHessian::touch(std::int32_t patch, int count) {
   return static_cast<std::size_t>(slot);
 }
 
-/// Sets the hats of all patches at the corners of a star, patch by patch.
-void PatchHessian::find_hats(const VertexStars& stars, int star) {
+/// Sets the hats of all patches at the corners of an element, patch by patch.
+void PatchHessian::find_hats(int count, const std::int32_t* corners) {
   forget_touched();
-  const int first = stars.first_corner[star], count = stars.first_corner[star + 1] - first;
   for (int c = 0; c < count; ++c) {
-    const int vertex = stars.corners[first + c];
+    const int vertex = corners[c];
     for (const auto* place = patches_.begin(vertex); place != patches_.end(vertex); ++place) {
       const std::size_t slot = touch(place->patch, count);
       hats_[slot * count + c] = homogeneous(vertex, place->hat);
@@ -112,7 +110,9 @@ void PatchHessian::find_hats(const VertexStars& stars, int star) {
 /// weight (s_1 + s_2 + s_3), whose Hessian is -2 weight sum_{i < j} (A_ij - A_ji)^2 / (s_i + s_j)
 /// with A = U^T dF L^T V. So a star feels three numbers of a motion in each part.
 void PatchHessian::add_stars(const std::vector<Part>& parts, int star) {
-  find_hats(*parts[0].stars, star);
+  const VertexStars& stars = *parts[0].stars;
+  const int first = stars.first_corner[star];
+  find_hats(stars.first_corner[star + 1] - first, &stars.corners[first]);
   moments_.resize(touched_.size());
   felt_.resize(touched_.size());
   for (const Part& part : parts) add_rotation(part, star);
@@ -239,7 +239,7 @@ std::optional<online::DenseCholesky> PatchHessian::factor() {
   hold_small_patches();
   const int d = patches_.dimension();
   online::DenseCholesky result(d);
-  for (double shift = kShift; shift < kMostShift; shift *= kMoreShift) {
+  for (double shift = shift_; shift < kMostShift; shift *= kMoreShift) {
     const Square sum = (1.0 + shift) * dirichlet_ + rotations_;
     if (result.factor(sum.data(), d) < 0) return result;
   }

@@ -1,17 +1,20 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "energy/blended_energy.h"
 #include "energy/vertex_stars.h"
 #include "online/dense_cholesky.h"
 #include "patches/rigid_patches.h"
+#include "patches/tet_sample.h"
 
 namespace snapspace {
 
-/// The Hessian of a surface that is as rigid as possible, for rigid motions of its patches about
-/// their centers at a shape.
+/// The Hessian of a surface that is as rigid as possible, or of a blended solid, for rigid motions
+/// of its patches about their centers at a shape.
 class PatchHessian {
  public:
   /// @param u  the shape, displaced from the positions of the patches (3n)
@@ -24,9 +27,12 @@ class PatchHessian {
   };
   /// Adds the energy of parts, whose stars have the same corners. Weights may be negative.
   void add(const std::vector<Part>& parts);
+  /// Adds the energy of a solid at u for these weights, as far as a sample of its tets knows it.
+  void add(const BlendedEnergy& energy, const TetSample& sample, const double* weights,
+           const double* u);
 
-  /// The Cholesky factor; none if the shape is not finite. Translations of the whole surface have
-  /// no energy; they are made as stiff as those of single patches. Where the Hessian is not
+  /// The Cholesky factor; none if the shape is not finite. Translations of the whole body have no
+  /// energy; they are made as stiff as those of single patches. Where the Hessian is not
   /// positive definite, a multiple of the Dirichlet energy's is added, as Newton's method shifts
   /// Hessians (Nocedal & Wright 2006, sec. 3.4).
   [[nodiscard]] std::optional<online::DenseCholesky> factor();
@@ -37,6 +43,10 @@ class PatchHessian {
   [[nodiscard]] const std::vector<double>& positions() const { return positions_; }
 
  private:
+  static constexpr int kMotions = RigidPatches::kMotions;
+  static constexpr int kPadded = 8;                    // numbers of a vector register
+  using MotionRow = Eigen::Array<double, kPadded, 1>;  // a number for each motion, and two zeros
+  using MotionRows = std::array<MotionRow, 9>;
   using Vector = Eigen::Vector3d;
   using Matrix = Eigen::Matrix3d;
   using Homogeneous = Eigen::Vector4d;  // a hat times (1, x)
@@ -59,20 +69,26 @@ class PatchHessian {
   void add_couplings(const VertexStars& pattern, const std::vector<double>& couplings);
   void forget_touched();
   std::size_t touch(std::int32_t patch, int count);
-  void find_hats(const VertexStars& stars, int star);
+  void find_hats(int count, const std::int32_t* corners);
+  void find_motions(const RestTet& tet);
+  void add_products(const double H[9][9], double stiffness);
   void hold_translations();
   void hold_small_patches();
 
   const RigidPatches& patches_;
   std::vector<double> positions_, centers_;
-  Square dirichlet_, rotations_;  // their parts, lower triangles
+  Square dirichlet_, rotations_;  // their parts, lower triangles; what is not Dirichlet energy
+  double shift_ = 3e-3;           // share of the Dirichlet energy's Hessian that is always added
   // of a star: the patches that it touches, their hats at its corners, and what its rotation in a
   // part feels of their motions
   std::vector<std::int32_t> touched_;
   std::vector<int> slots_;  // of patches in these; -1
   std::vector<Homogeneous> hats_;
   std::vector<Moments> moments_;
-  std::vector<Eigen::Matrix<double, RigidPatches::kMotions, 3>> felt_;
+  std::vector<Eigen::Matrix<double, kMotions, 3>> felt_;
+  // of a tet: the entries of its displacement gradient for the motions of each touched patch, and
+  // what its Hessian makes of them
+  std::vector<MotionRows> gradients_, stresses_;
 };
 
 }  // namespace snapspace

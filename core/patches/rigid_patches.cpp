@@ -34,18 +34,12 @@ double extent(const double* shape, int vertex_count) {
 
 /// The hats of nearly the most patches. Their number falls with the radius: along limbs in inverse
 /// proportion, on sheets faster.
-StarHats hats_of(const double* shapes, int count, int vertex_count, const std::int32_t* triangles,
-                 int triangle_count) {
-  std::vector<std::int32_t> corners;
-  corners.reserve(3 * static_cast<std::size_t>(triangle_count));
-  for (int t = 0; t < triangle_count; ++t)
-    corners.insert(corners.end(), triangles + 4 * static_cast<std::size_t>(t),
-                   triangles + 4 * static_cast<std::size_t>(t) + 3);
-  double radius = 0.3 * extent(shapes, vertex_count);
+StarHats hats_of(const double* shape, const EdgeGraph& edges, int most) {
+  double radius = 0.3 * extent(shape, edges.vertices());
   StarHats best;
   for (int i = 0; i < kMaxTries; ++i) {
-    StarHats hats = star_hats(shapes, count, vertex_count, corners.data(), triangle_count, radius);
-    const double share = static_cast<double>(hats.count()) / RigidPatches::kMostPatches;
+    StarHats hats = star_hats(edges, radius);
+    const double share = static_cast<double>(hats.count()) / most;
     if (share <= 1.0 && (best.of_all_vertices() || hats.count() > best.count()))
       best = std::move(hats);
     if (share >= kFew && share <= 1.0) break;
@@ -56,11 +50,11 @@ StarHats hats_of(const double* shapes, int count, int vertex_count, const std::i
 
 }  // namespace
 
-RigidPatches::RigidPatches(const double* shapes, int count, int vertex_count,
-                           const std::int32_t* triangles, int triangle_count)
-    : first_(static_cast<std::size_t>(vertex_count) + 1, 0),
-      positions_(shapes, shapes + 3 * static_cast<std::size_t>(vertex_count)) {
-  const StarHats hats = hats_of(shapes, count, vertex_count, triangles, triangle_count);
+RigidPatches::RigidPatches(const double* shape, const EdgeGraph& edges, int most)
+    : first_(static_cast<std::size_t>(edges.vertices()) + 1, 0),
+      positions_(shape, shape + 3 * static_cast<std::size_t>(edges.vertices())) {
+  const int vertex_count = edges.vertices();
+  const StarHats hats = hats_of(shape, edges, most);
   if (hats.of_all_vertices()) return;  // no patches
   count_ = hats.count();
   std::vector<float> largest(vertex_count, 0.0f), sums(vertex_count, 0.0f);

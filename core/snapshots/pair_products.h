@@ -13,7 +13,7 @@ struct LbfgsMemory {
 
 /// For problems with short solves, and with long ones; see PosingSystem and InterpolationSystem.
 inline constexpr LbfgsMemory kShortMemory{.pairs = 1, .scaled = true};
-inline constexpr LbfgsMemory kLongMemory{.pairs = 2, .scaled = false};
+inline constexpr LbfgsMemory kLongMemory{.pairs = 4, .scaled = false};
 
 /// The L-BFGS recursion of one sample, on inner products alone (as in Chen, Wang, Zhou 2014).
 /// The seed is a fixed inverse A^-1, or seed * A^-1 if it is scaled. Let z = A^-1 g for the

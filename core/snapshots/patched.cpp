@@ -39,7 +39,7 @@ class PatchedObjective final : public LaneObjective<Real> {
   [[nodiscard]] std::shared_ptr<const SampleSeed> seed_near(const double* input,
                                                             const double* u) const override {
     PatchHessian hessian(patches_, u);
-    system_.add_to(hessian, input);
+    system_.add_to(hessian, input, u);
     std::optional<online::DenseCholesky> factor = hessian.factor();
     if (!factor) return nullptr;
     const std::vector<double>& positions = hessian.positions();

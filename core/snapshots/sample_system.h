@@ -48,8 +48,9 @@ class SampleSystem {
   double value_and_gradient(const double* input, const double* u, double* gradient) const;
   /// Patches whose rigid motions are soft; null where the scalar matrix suffices.
   [[nodiscard]] virtual const RigidPatches* patches() const { return nullptr; }
-  /// Adds the energy of the sample with this input.
-  virtual void add_to(PatchHessian& /*hessian*/, const double* /*input*/) const {}
+  /// Adds the energy of the sample with this input, at the shape of the Hessian, u.
+  virtual void add_to(PatchHessian& /*hessian*/, const double* /*input*/,
+                      const double* /*u*/) const {}
   [[nodiscard]] virtual BlockHessian hessian_pattern() const = 0;
   /// The Hessian at u of the sample with this input.
   virtual void assemble(const double* input, const double* u, const HessianOptions& options,

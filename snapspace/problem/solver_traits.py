@@ -35,6 +35,8 @@ class SolverTraits:
         such starts do not pay
     seeded_hessians : whether its Hessians are in their seed, see `Predictions`; not where the
         system's seed knows soft motions without them
+    polishing_hessian : whether the reduced Hessian is in the seed of `Polisher`; not where patches
+        know soft motions better
     """
 
     tolerance: float
@@ -47,6 +49,7 @@ class SolverTraits:
     system_near: Callable[[FloatArray], Any]
     seeded_tolerance: float | None
     seeded_hessians: bool
+    polishing_hessian: bool
 
 
 #: Iterations on the shared factor after which an interpolated sample gets its own factor. Most take
@@ -115,6 +118,7 @@ def posing_traits(
         system_near=system_near,
         seeded_tolerance=None if shell else tolerance,
         seeded_hessians=True,
+        polishing_hessian=True,
     )
 
 
@@ -141,6 +145,7 @@ def interpolation_traits(
     starts of a model 14 to 28, and are as near to the minimum with 1e-7 as with 1e-9. Four Lions of
     tets take 35 with a model's starts and 33 with its Hessians.
     """
+    patches_suffice = shell and isinstance(material, ARAP)
     return SolverTraits(
         tolerance=1e-9,
         loose_tolerance=1e-6,
@@ -150,6 +155,7 @@ def interpolation_traits(
         far_apart=True,
         soft_modes=lambda: None,
         system_near=system_near,
-        seeded_tolerance=1e-8 if shell and isinstance(material, ARAP) else None,
+        seeded_tolerance=1e-8 if patches_suffice else None,
         seeded_hessians=False,
+        polishing_hessian=not patches_suffice,
     )

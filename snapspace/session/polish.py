@@ -59,7 +59,9 @@ class Polisher:
     the shape, as much as more than thirty.
 
     Blends of surfaces that are as rigid as possible have the rigid motions of patches in the place
-    of U: these span soft deformations that no sample has.
+    of U: these span soft deformations that no sample has. Those of solids do not: their patches
+    know only a sample of the tets, and ten iterations leave 0.88 of the error of a Lion's frame
+    instead of 0.76, and 0.58 of a lizard's instead of 0.38.
 
     Parameters
     ----------
@@ -71,7 +73,7 @@ class Polisher:
         self._problem, self._subspace = problem, subspace
         self._system: Any = problem.system
         self._coarse: core.CoarseSpace | None = None
-        if not self._system.patches:
+        if problem.solving.polishing_hessian:
             modes = np.ascontiguousarray(subspace.basis.T)
             self._coarse = run_abandonable(lambda: core.CoarseSpace(self._system, modes))
         self._root_mass = math.sqrt(float(subspace.mass.sum()))
