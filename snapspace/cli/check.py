@@ -10,6 +10,7 @@ import click
 from ..doctor import Finding, MendedSurface, SurfaceReport, check_surface, mend_surface
 from ..mesh import open_surface, read_tets, write_surface, write_tets
 from ..mesh.input_path import existing_file, writable_path
+from ..point_text import corner_texts
 from .console import notice, print_facts, print_json, print_next
 from .files import SURFACE_INPUTS, SURFACE_OUTPUTS, TET_INPUTS, TET_OUTPUTS
 from .mesh_info import mesh_info
@@ -109,12 +110,11 @@ def _mending(mended: MendedSurface) -> dict[str, Any]:
 
 
 def _print(title: str, report: SurfaceReport) -> None:
-    low, high = (", ".join(f"{x:.4g}" for x in corner) for corner in report.bounds)
     volume = "none: it is not closed" if report.volume is None else f"{report.volume:.6g}"
     facts = [
         ("vertices", str(report.vertices)),
         ("faces", str(report.faces)),
-        ("bounds", f"({low}) to ({high}), diagonal {report.diagonal:.6g}"),
+        ("bounds", f"{' to '.join(corner_texts(*report.bounds))}, diagonal {report.diagonal:.6g}"),
         ("area", f"{report.area:.6g}"),
         ("volume", volume),
     ]

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..input_error import fault_of
 from ..mesh import Body, MeshNotice, ShellMesh, TetMesh, read_surface, read_tets
+from ..point_text import corner_texts
 from .shell_info import shell_facts, shell_figures
 
 #: Tets with a smaller dihedral angle, in degrees, are called slivers.
@@ -97,7 +98,7 @@ def mesh_facts(figures: dict[str, Any]) -> list[tuple[str, str]]:
         ("tets", str(figures["tets"])),
         ("surface", f"{surface['faces']} faces, {surface['vertices']} vertices"),
         ("volume", f"{figures['volume']:.6g}"),
-        ("bounds", f"{_point(low)} to {_point(high)}, diagonal {figures['diagonal']:.6g}"),
+        ("bounds", f"{' to '.join(corner_texts(low, high))}, diagonal {figures['diagonal']:.6g}"),
         (
             "dihedral angles",
             f"{angles['min']:.3g} to {angles['max']:.4g} degrees"
@@ -125,7 +126,7 @@ def surface_info(file: Path) -> Info:
         ("vertices", str(len(vertices))),
         ("faces", str(len(faces))),
         ("closed", "yes" if closed else "no: an edge has no opposite, or faces disagree"),
-        ("bounds", f"{_point(low)} to {_point(high)}, diagonal {diagonal:.6g}"),
+        ("bounds", f"{' to '.join(corner_texts(low, high))}, diagonal {diagonal:.6g}"),
         (
             "note",
             "`snapspace interpolate` fills it and blends it with other poses; `build` fills it "
@@ -142,7 +143,3 @@ def _is_closed(faces: NDArray[np.int32]) -> bool:
     ahead = np.sort(edges[:, 0] * stride + edges[:, 1])
     back = np.sort(edges[:, 1] * stride + edges[:, 0])
     return bool(np.array_equal(ahead, back))
-
-
-def _point(point: NDArray[np.float64] | list[float]) -> str:
-    return "(" + ", ".join(f"{x:.4g}" for x in point) + ")"

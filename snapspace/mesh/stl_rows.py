@@ -15,7 +15,7 @@ HEADER = 84
 _WORD = rb"\s+([^\s]+)\s+([^\s]+)\s+([^\s]+)"
 _VERTEX = re.compile(rb"(?i)\bvertex" + _WORD)
 _NORMAL = re.compile(rb"(?i)\bfacet\s+normal" + _WORD)
-_NO_STL = "it is not a STL file, or it is incomplete"
+_NO_STL = "it is not an STL file, or it is incomplete"
 
 Spans = NDArray[np.int64]
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..mesh import Body
+from ..point_text import corner_texts
 from .handles import Handles
 from .json_entries import as_index, as_list, as_object, as_text, within
 from .place_entries import Mask, in_places, listed
@@ -58,11 +59,8 @@ def _mask(item: dict[str, Any], name: str, mesh: Body) -> Mask:
         mask = in_places(item, mesh.vertices) | vertices
         if mask.any():
             return mask
-        low, high = (
-            ", ".join(f"{x:.4g}" for x in corner)
-            for corner in (mesh.vertices.min(axis=0), mesh.vertices.max(axis=0))
-        )
+        low, high = corner_texts(mesh.vertices.min(axis=0), mesh.vertices.max(axis=0))
         raise ValueError(
-            f"it has no vertices of the mesh, which reaches from ({low}) to ({high}); move or "
+            f"it has no vertices of the mesh, which reaches from {low} to {high}; move or "
             "widen its boxes or spheres, or list vertices"
         )

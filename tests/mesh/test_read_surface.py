@@ -153,7 +153,7 @@ def test_stl_points_are_merged_in_their_order(tmp_path: Path) -> None:
         ("a.ply", "ply\nformat ascii 1.0\nelement vertex x\nend_header\n", "an element is 'x'"),
         ("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\nend_header\n",
          "the type 'quad' is not known"),
-        ("a.stl", "nothing", "it is not a STL file, or it is incomplete"),
+        ("a.stl", "nothing", "it is not an STL file, or it is incomplete"),
         ("a.txt", "", r"unknown extension '\.txt'; known are \.obj, \.off, \.ply, \.stl"),
     ],
 )  # fmt: skip
