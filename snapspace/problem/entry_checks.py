@@ -14,6 +14,13 @@ from .material_entries import material_from
 
 AXES = ("x", "y", "z")
 
+_EXAMPLES = {
+    "domain": '"domain": {"translation": 0.2, "angle_degrees": 45}, the largest motions of a '
+    "handle in the mesh's unit of length",
+    "handles": '"handles": [{"name": "feet", "boxes": [...]}, {"name": "head", "spheres": [...]}]',
+    "mesh": '"mesh": "FILE", or "surface": "FILE"',
+}
+
 
 def check_entries(content: dict[str, Any]) -> None:
     """ValueError for what is wrong in a problem of a solid whatever its mesh is.
@@ -41,9 +48,10 @@ def check_look(content: dict[str, Any]) -> None:
 
 
 def entry(content: dict[str, Any], key: str) -> Any:
-    """An entry that must be there; ValueError if it is not."""
+    """An entry that must be there; ValueError if it is not, with an example."""
     if key not in content:
-        raise ValueError(f"the entry '{key}' is missing")
+        example = f"; add {_EXAMPLES[key]}" if key in _EXAMPLES else ""
+        raise ValueError(f"the entry '{key}' is missing{example}")
     return content[key]
 
 

@@ -184,7 +184,7 @@ WRONG: list[tuple[tuple[str | int, ...], Any, str]] = [
     (("material", "mu"), -1, "material: StVK: mu is -1.0, but it must be positive"),
     (("material", "lam"), None, "material: lam must be a number, got None"),
     (("material", "nu"), 0.3, "material: unknown entry 'nu'; known are lam, model, mu, poi"),
-    (("domain",), DELETE, "the entry 'domain' is missing"),
+    (("domain",), DELETE, 'the entry \'domain\' is missing; add "domain": {"translation": 0.2'),
     (("domain",), 5, "domain must be an object {...}, got 5"),
     (("domain", "translation"), DELETE, "the entry 'translation' is missing"),
     (("domain", "angle_degrees"), DELETE, "the entry 'angle_degrees' is missing"),
