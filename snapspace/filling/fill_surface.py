@@ -85,8 +85,9 @@ def fill_surface(
         tolerance=tolerance,
         progress=progress,
     )
-    _check_one_solid(tet_vertices, tets)
-    mesh, _ = repair_tets(tet_vertices * surface.diagonal + surface.center, tets)
+    placed = tet_vertices * surface.diagonal + surface.center
+    _check_one_solid(placed, tets)
+    mesh, _ = repair_tets(placed, tets)
     return mesh
 
 
@@ -97,10 +98,14 @@ def _check_one_solid(vertices: NDArray[np.float64], tets: NDArray[np.int32]) -> 
             "the tolerance everywhere; lower the tolerance"
         )
     volumes = np.abs(tet_volumes(vertices, tets))
-    share = np.bincount(tet_components(tets, len(vertices)), volumes) / volumes.sum()
+    solid = tet_components(tets, len(vertices))
+    share = np.bincount(solid, volumes) / volumes.sum()
     solids = int((share > _CRUMB).sum())
     if solids > 1:
+        second = np.argsort(-share)[1]
+        around = ", ".join(f"{x:.4g}" for x in vertices[tets[solid == second]].mean(axis=(0, 1)))
         raise ValueError(
-            f"fill_surface: the tets form {solids} separate solids, but one is needed; join the "
-            "parts of the surface, or lower the tolerance if a thin bridge between them was lost"
+            f"fill_surface: the tets form {solids} separate solids (the second largest: "
+            f"{100 * share[second]:.2g} % of the volume around ({around})), but one is needed; "
+            "join them or remove all but one, or lower the tolerance if a thin bridge was lost"
         )

@@ -119,8 +119,13 @@ def test_separate_parts_are_refused_and_nothing_is_left_behind(
         np.concatenate([vertices, vertices + np.array([0, 2, 0])]),
         np.concatenate([faces, faces + 8]),
     )
-    with pytest.raises(ValueError, match="the tets form 2 separate solids, but one is needed"):
+    other = "the second largest: .* % of the volume around"
+    wanted = rf"the tets form 2 separate solids \({other} .*\), but one is needed"
+    with pytest.raises(ValueError, match=wanted) as refused:
         fill_surface(*both, **COARSE)
+    place = np.fromstring(str(refused.value).split("around (")[1].split(")")[0], sep=",")
+    centers = np.add(np.mean(vertices, axis=0), [[0, 0, 0], [0, 2, 0]])
+    assert np.linalg.norm(centers - place, axis=1).min() < 0.3, "the middle of one of the bars"
     assert capfd.readouterr() == ("", "")
     assert list(tmp_path.iterdir()) == []
 
