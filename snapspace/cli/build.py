@@ -16,6 +16,7 @@ from ..model_file import check_model_path, load
 from ..problem import is_quartic
 from ..reduction import STORED_ENERGIES, Energy, PosingModel
 from .accurate_pipeline import chosen_build
+from .box_size import notice_wide_box
 from .build_advice import build_advice
 from .choices import MOTION_SAMPLINGS, Choices, choice_options
 from .console import print_json, print_next
@@ -119,6 +120,7 @@ def build(
         thickness=thickness,
     )
     problem, source = given.problem, given.source
+    notice_wide_box(problem)
     quartic = is_quartic(problem)
     by_hand = decided_by_hand(exact=quartic, deciding=MOTIONS_DECIDING)
     dimension = None if choices.energy_fraction else choices.dimension or DIMENSION

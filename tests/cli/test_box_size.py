@@ -1,0 +1,24 @@
+"""A box of motions in another unit than the mesh is named before it is sampled."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from .conftest import Run
+from .files import write_problem
+
+FEW = ("--samples", 2, "--dimension", 1, "--max-iterations", 1)
+
+
+def test_motions_far_longer_than_the_body_are_named(run: Run, tmp_path: Path) -> None:
+    """The bar is 4 long."""
+    wide = write_problem(tmp_path, domain={"translation": [0, 500, 0], "angle_degrees": 30})
+    told = run("build", "--problem", wide, *FEW, "-o", tmp_path / "wide.snapspace").err
+    wanted = "handles move by up to 500, 118 times the diagonal of the mesh (4.243); the domain's"
+    assert wanted in " ".join(told.split())
+
+
+def test_usual_motions_are_not(run: Run, tmp_path: Path) -> None:
+    usual = write_problem(tmp_path, domain={"translation": 4, "angle_degrees": 30})
+    told = run("build", "--problem", usual, *FEW, "-o", tmp_path / "usual.snapspace").err
+    assert "diagonal" not in told
