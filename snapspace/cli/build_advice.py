@@ -15,6 +15,7 @@ from ..validation import Validation
 from .advice import advice, split_of_some
 from .console import notice
 from .mesh_info import SLIVER
+from .outliers import notice_outliers
 from .pipeline import Built
 
 #: Samples in which inverted tets are looked for.
@@ -44,6 +45,8 @@ def build_advice(built: Built, *, folders: Sequence[Path], threads: int | None) 
         return []
     _notice_inverted_samples(built)
     _notice_inverted_frames(built.validation)
+    if isinstance(built.model.problem, PosingProblem):
+        notice_outliers(built.validation)
     if "accurate" in built.model.provenance:  # its error is reported already
         return []
     return _error_advice(built, built.validation, folders, threads)

@@ -1,0 +1,36 @@
+"""notice_outliers: a notice about the few motions that a median hides."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..validation import Validation
+from .console import notice
+from .units import in_percent
+
+#: A mean error is looked at above this value, and above so many medians.
+_MEAN, _MEDIANS = 0.02, 3.0
+#: Motions with this error look wrong. Where the subspace has a tenth of it, it is not the cause.
+_FAR, _SHARE = 0.1, 0.1
+
+
+def notice_outliers(validation: Validation) -> None:
+    """A notice if a few motions are far off while the median is small, with the likely cause.
+
+    A thin part that is pressed together snaps to one of several sides, and its energy has a minimum
+    for each. Reduced and full solution may then be at different ones, which a better model does not
+    change.
+    """
+    errors = validation.error
+    mean, far = float(errors.mean()), errors > _FAR
+    if mean <= max(_MEAN, _MEDIANS * float(np.median(errors))) or not far.any():
+        return
+    snapped = far & (validation.projection_error < _SHARE * errors)
+    cause, cure = "", "ask for a smaller --target-error, or make the box of motions smaller"
+    if 2 * snapped.sum() > far.sum():
+        cause = ", probably at another minimum of the energy, as where a thin part snaps"
+        cure = "make the box of motions smaller, or put a handle on the part that snaps"
+    notice(
+        f"notice: {int(far.sum())} of {len(errors)} unseen motions are more than "
+        f"{in_percent(_FAR)} off, at most {in_percent(float(errors.max()))}{cause}; {cure}"
+    )
