@@ -14,11 +14,13 @@ from numpy.typing import ArrayLike
 
 from ..arguments import as_path
 from ..disk.atomic_file import atomic_file
+from ..notice import notify
 from .arrays import FloatArray, IndexArray, as_indices, as_points
 from .input_path import writable_path
 from .obj import write_obj
 from .off import write_off
 from .ply import write_ply
+from .read import MeshNotice
 from .stl import write_stl
 from .surface import compact_surface
 from .tet_mesh import TetMesh
@@ -32,6 +34,8 @@ _TET_FORMATS: dict[str, tuple[str, _Options]] = {
     ".vtk": ("vtk", {"binary": True}),
     ".mesh": ("medit", {}),
 }
+# Share of the diagonal by which single precision may move vertices without a notice.
+_ROUNDED = 1e-4
 # Gmsh's data sections hold scalars, vectors and 3 x 3 tensors only; MEDIT files hold none.
 _GMSH_COMPONENTS = (1, 3, 9)
 
@@ -100,6 +104,12 @@ def write_surface(path: str | os.PathLike[str], vertices: ArrayLike, faces: Arra
         For an unknown extension, a folder that does not exist or cannot be written, wrong shapes,
         coordinates that are not finite, an index out of range, or no faces. An existing file at
         `path` then stays as it was.
+
+    Warns
+    -----
+    MeshNotice
+        If single precision moves vertices by more than 1e-4 of the diagonal, as it does far from
+        the origin.
     """
     file = writable_path(as_path("write_surface", path), known=_SURFACE_WRITERS)
     points = as_points(vertices, who="write_surface")
@@ -111,6 +121,22 @@ def write_surface(path: str | os.PathLike[str], vertices: ArrayLike, faces: Arra
     points, triangles = compact_surface(points, triangles)
     with atomic_file(file) as temporary:
         _SURFACE_WRITERS[file.suffix.lower()](temporary, points, triangles)
+    if file.suffix.lower() == ".stl":
+        _notify_rounded(points, file)
+
+
+def _notify_rounded(points: FloatArray, file: Path) -> None:
+    """A notice if single precision changes the shape."""
+    farthest, diagonal = np.abs(points).max(), np.linalg.norm(np.ptp(points, axis=0))
+    moved = 0.5 * float(np.finfo(np.float32).eps) * farthest
+    if moved > _ROUNDED * diagonal:
+        notify(
+            f"{file}: .stl has single precision, which moves vertices so far from the origin by up "
+            f"to {moved:.2g}, {100 * moved / diagonal:.2g} % of the diagonal; write .obj or .ply, "
+            "or move the mesh to the origin",
+            MeshNotice,
+            stacklevel=3,
+        )
 
 
 def _shape_to_write(mesh: TetMesh, vertices: ArrayLike | None) -> FloatArray:

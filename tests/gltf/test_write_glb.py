@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from snapspace import InterpolationModel, PosingModel, write_animation
 from snapspace.gltf import fitted_targets, mode_targets, write_glb
 from snapspace.gltf.morph_targets import unit_normals
+from snapspace.mesh import read_surface
 
 from ..page.tools import tool
 from .glb_content import GlbContent
@@ -123,12 +126,28 @@ def test_the_same_model_gives_the_same_bytes(
 
 @pytest.mark.parametrize(("up", "axis"), [("x", 0), ("y", 1), ("z", 2)])
 def test_up_becomes_y(posing_model: PosingModel, up: str, axis: int, tmp_path: Path) -> None:
-    from scipy.spatial.transform import Rotation
-
     morphs = mode_targets(posing_model)
     file = GlbContent(write_glb(tmp_path / "bar.glb", posing_model, morphs, up=up))
     turn = Rotation.from_quat(file.json["nodes"][0].get("rotation", [0, 0, 0, 1]))
     np.testing.assert_allclose(turn.apply(np.eye(3)[axis]), [0, 1, 0], atol=1e-6)
+
+
+@pytest.mark.parametrize("up", ["x", "y", "z"])
+def test_a_body_far_from_the_origin_keeps_its_shape(
+    posing_model: PosingModel, up: str, tmp_path: Path
+) -> None:
+    """At 10,000 diagonals single precision has steps of a thousandth of the diagonal."""
+    near = mode_targets(posing_model)
+    diagonal = posing_model.problem.mesh.diagonal
+    place = 1e4 * diagonal * np.array([1.0, -0.3, 0.2])
+    far = write_glb(
+        tmp_path / "far.glb", posing_model, replace(near, base=near.base + place), up=up
+    )
+    node = GlbContent(far).json["nodes"][0]
+    turn = Rotation.from_quat(node.get("rotation", [0, 0, 0, 1]))
+    points, _ = read_surface(far)
+    plain, _ = read_surface(write_glb(tmp_path / "near.glb", posing_model, near, up=up))
+    np.testing.assert_allclose(points, plain + turn.apply(place), atol=1e-6 * diagonal)
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from snapspace.disk.atomic_file import atomic_file
-from snapspace.mesh import read_surface, read_tets, write_surface, write_tets
+from snapspace.mesh import MeshNotice, read_surface, read_tets, write_surface, write_tets
 
 from .boxes import box_mesh, irregular_mesh
 
@@ -184,3 +184,15 @@ def test_a_link_stays_a_link(tmp_path: Path) -> None:
         temporary.write_text("new")
     assert (tmp_path / "link.txt").is_symlink()
     assert (tmp_path / "target.txt").read_text() == "new"
+
+
+def test_a_notice_says_where_stl_loses_the_shape(
+    tmp_path: Path, recwarn: pytest.WarningsRecorder
+) -> None:
+    """The box is at 100,000, where single precision has steps of 0.008."""
+    mesh = box_mesh((2, 2, 2))
+    write_surface(tmp_path / "far.ply", mesh.vertices + 1e5, mesh.surface)
+    write_surface(tmp_path / "near.stl", mesh.vertices, mesh.surface)
+    assert not recwarn.list
+    with pytest.warns(MeshNotice, match=r"far\.stl: .stl has single precision, .* write .obj or"):
+        write_surface(tmp_path / "far.stl", mesh.vertices + 1e5, mesh.surface)
