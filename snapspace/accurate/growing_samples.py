@@ -24,6 +24,9 @@ from .solving import Solving
 FloatArray = NDArray[np.float64]
 Model = PosingModel | InterpolationModel
 
+#: Held-out samples nearer to tau than this share of the median distance do not judge.
+_NEAR = 0.05
+
 
 class GrowingSamples:
     """Samples of one sequence, solved in stages; the held-out ones stay the same.
@@ -246,8 +249,15 @@ class GrowingSamples:
         return self._usable(~self.held_out, fewest)
 
     def _judging(self) -> NDArray[np.bool_]:
-        """Mask (k,) of the usable samples that are held out."""
-        return self._usable(self.held_out, fewest=1)
+        """Mask (k,) of the usable samples that are held out, without those next to tau.
+
+        Errors are relative to the distance from tau. Two poses have a sample close to their mean
+        shape: it looks right, and may be 40 % off and decide the mean of the others.
+        """
+        judging = self._usable(self.held_out, fewest=1)
+        distances = np.sqrt(np.diag(self._gram.matrix)[: len(judging)])
+        near: NDArray[np.bool_] = distances < _NEAR * np.median(distances[judging])
+        return judging & ~near
 
     def _usable(self, which: NDArray[np.bool_], fewest: int) -> NDArray[np.bool_]:
         usable = self.snapshots.usable & which
