@@ -21,7 +21,9 @@ interface Improved {
 export type Polish = (frame: Frame) => Promise<Improved>;
 
 const MILLISECONDS = 150; // from the live shape to the improved one
-const REST = 1e-6; // coordinates at rest, relative to those of a displacement of a tenth of the diagonal
+/** Coordinates at rest, relative to those of a displacement of a tenth of the diagonal: where solves end that come from far
+ * away. That is about a hundredth of a pixel. */
+const REST = 1e-4;
 
 /** Polishes at a server; `model()` is the number of the model there at that time. */
 export function polishAt(server: Server, model: () => number): Polish {
