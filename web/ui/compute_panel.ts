@@ -114,6 +114,11 @@ export class ComputePanel {
     this.#bar.show({ stage: "snapshots", done: 0, total: 0, eta: null, error: null });
   }
 
+  /** Hides the bar until there is progress again: without a connection nothing is known of the computation. */
+  stall(): void {
+    this.#bar.element.hidden = true;
+  }
+
   progress(progress: Progress): void {
     this.#bar.show(progress);
   }

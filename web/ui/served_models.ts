@@ -130,7 +130,8 @@ export class ServedModels {
   }
 
   progress(progress: Progress): void {
-    if (this.job.takes(progress.request) && this.job.isRunning) this.panel.progress(progress);
+    const isKnown = this.job.takes(progress.request) && this.job.isRunning;
+    if (isKnown && this.#server.isOpen) this.panel.progress(progress);
   }
 
   announce(sent: Model): void {

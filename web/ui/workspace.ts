@@ -80,15 +80,19 @@ export class Workspace {
       this.#begun(given);
       this.#later(() => this.#enter(given));
     });
-    server.on("progress", (progress) =>
-      progress.request === 0 ? this.#reading.progress(progress) : models.progress(progress),
+    server.on(
+      "progress",
+      (progress) =>
+        progress.request === 0
+          ? this.#reading.progress(progress)
+          : this.#later(() => models.progress(progress)), // after the workspace, which names its request
     );
     server.on("model", (model) => {
       models.announce(model);
       this.#later(() => models.take(model));
     });
     server.on("failed", ({ request, message }) =>
-      request === 0 ? this.#later(() => this.#reading.failed(message)) : models.fails(request, message),
+      this.#later(() => (request === 0 ? this.#reading.failed(message) : models.fails(request, message))),
     );
     const notice = new ConnectionNotice(server);
     document.body.append(notice.element);
@@ -96,6 +100,7 @@ export class Workspace {
       notice.show(connection);
       if (connection === "open") return models.panel.fault(""); // which was that there is none
       this.#begun(null);
+      models.panel.stall();
       if (!this.#mesh) this.#reading.lose();
     };
     for (const type of ["input", "change"])
