@@ -42,6 +42,12 @@ def test_sliders_and_polygon_blend(
     page.drag(start, 0, -40)
     weights = page.run("snapspace.session.weights")
     assert np.isclose(sum(weights), 1) and weights[0] == max(weights)
+    outline = "getComputedStyle(document.activeElement).outlineStyle"
+    assert page.run("document.activeElement.classList.contains('polygon')")
+    assert page.run(outline) == "none", "a press draws no frame"
+    page.page.keyboard.press("Tab")
+    page.page.keyboard.press("Shift+Tab")
+    assert page.run(outline) == "solid", "the keyboard shows where it is"
     assert_shown(blending_model, page)
     mouse = page.page.mouse
     mouse.move(*start)
