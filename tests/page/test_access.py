@@ -90,6 +90,13 @@ def test_controls_are_large_enough_for_fingers(
     tabs.close(page)
 
 
+def test_a_phone_is_not_told_to_press_keys(posing_page: Path, opened: OpenPage) -> None:
+    turns = {"choose Turn": PHONE, "Shift-drag": {}}
+    for how, options in turns.items():
+        page = opened(posing_page.as_uri(), **options)
+        assert f"or {how} to turn it" in page.text("#panel")
+
+
 def test_texts_fit_their_fields(posing_page: Path, opened: OpenPage) -> None:
     page = opened(posing_page.as_uri(), size=(1280, 800))
     for key in "2k":

@@ -14,7 +14,7 @@ import type { Choosing } from "./choosing.ts";
 import { colorOf } from "./choosing_colors.ts";
 import type { HandleMirror } from "./choosing_mirror.ts";
 import type { CommonRanges } from "./choosing_sampling.ts";
-import { h, section, vertexCount } from "./dom.ts";
+import { h, hasMouse, section, vertexCount } from "./dom.ts";
 import { DEGREES, rangeFields, shareOf } from "./range_fields.ts";
 
 /** The list of handles, and the button that makes one of the selection; `update` shows the present state. */
@@ -47,8 +47,7 @@ export class HandleList {
     if (this.#choosing.choice.selected.length === 0) return;
     this.#go(withNewHandle(this.#choosing.choice));
     // where there is a keyboard: on a phone it would cover the stage
-    if (matchMedia("(hover: hover)").matches)
-      this.#list.querySelector<HTMLInputElement>("li:last-child .name")?.select();
+    if (hasMouse()) this.#list.querySelector<HTMLInputElement>("li:last-child .name")?.select();
   }
 
   /** Makes the mirror image of the handle that has the focus, or of the last one. */

@@ -9,7 +9,7 @@ import {
 import { union } from "../engine/selecting.ts";
 import type { Choosing } from "./choosing.ts";
 import { partColorOf } from "./choosing_colors.ts";
-import { h, vertexCount } from "./dom.ts";
+import { h, hasMouse, vertexCount } from "./dom.ts";
 
 const [STIFF, SOFT] = [10, 0.1];
 
@@ -47,8 +47,7 @@ export class PartList {
 
   #make(factor: number): void {
     this.#choosing.go(withNewPart(this.#choosing.choice, factor));
-    if (matchMedia("(hover: hover)").matches)
-      this.#list.querySelector<HTMLInputElement>("li:last-child .name")?.select();
+    if (hasMouse()) this.#list.querySelector<HTMLInputElement>("li:last-child .name")?.select();
   }
 
   #item(part: ChosenPart): HTMLElement {

@@ -12,7 +12,7 @@ const HINTS: Record<Tool, string> = {
   brush: "Paint over a part. Drag beside the body to look around.",
   box: "Draw a box over a part. Look around with the right button or two fingers.",
   lasso: "Draw a line around a part. Look around with the right button or two fingers.",
-  look: "Drag to look around, scroll to come closer.",
+  look: "Drag to look around, scroll or pinch to come closer.",
 };
 
 /** Tools and what they do; `update` shows the present state. */

@@ -117,6 +117,11 @@ export function slider(
   return { element, input, set };
 }
 
+/** Whether the page is used with a mouse, and so most likely has a keyboard. */
+export function hasMouse(): boolean {
+  return matchMedia("(hover: hover)").matches;
+}
+
 export function vertexCount(count: number): string {
   return `${count.toLocaleString("en")} ${count === 1 ? "vertex" : "vertices"}`;
 }

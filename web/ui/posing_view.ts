@@ -1,7 +1,7 @@
 import type { Motion, PosingModel, PosingSession } from "../engine/index.ts";
 import { keepHash, poseHash } from "./address.ts";
 import { withoutMarks } from "./bare.ts";
-import { chooser, choice, enable, h, mark, section, setText, toggle } from "./dom.ts";
+import { chooser, choice, enable, h, hasMouse, mark, section, setText, toggle } from "./dom.ts";
 import { handleButtons } from "./handle_buttons.ts";
 import { ExportPanel } from "./export_panel.ts";
 import { FurtherHandles } from "./further_handles.ts";
@@ -23,11 +23,13 @@ import { POSING, shortcutSheet } from "./shortcuts.ts";
 import { VIEWS, type Stage } from "./stage.ts";
 import type { View, ViewOptions } from "./view.ts";
 
+const TURNS = hasMouse() ? "Shift-drag" : "choose Turn";
+
 /** What drags do in each mode. */
 const HELP: Record<Mode, string> = {
-  move: "Drag a coloured part to move it, or Shift-drag to turn it. Drag elsewhere to look around.",
+  move: `Drag a coloured part to move it, or ${TURNS} to turn it. Drag elsewhere to look around.`,
   turn: "Drag a coloured part to turn it. Drag elsewhere to look around.",
-  pull: "Drag a coloured part to move it, or Shift-drag to turn it. Drag beside the shape to look around.",
+  pull: `Drag a coloured part to move it, or ${TURNS} to turn it. Drag beside the shape to look around.`,
 };
 
 /** A view whose model can be replaced by a better one, of these handles and perhaps more, also in the middle of a drag. */

@@ -5,7 +5,7 @@ import { isTaken } from "./taken_keys.ts";
 export type Shortcuts = readonly (readonly [string, string])[];
 
 export const POSING: Shortcuts = [
-  ["Drag a handle", "move it; with Shift, turn it"],
+  ["Drag a handle", "move it; with Shift, or after Turn, turn it"],
   ["1 to 9", "select a handle"],
   ["Arrows", "move or turn the selected handle"],
   ["T", "move or turn"],
@@ -35,7 +35,7 @@ export const BLENDING: Shortcuts = [
 ];
 const LOOKING: Shortcuts = [
   ["Drag beside the shape", "look around"],
-  ["Wheel, right drag", "come nearer, move the view"],
+  ["Wheel, right drag, two fingers", "come nearer, move the view"],
   ["7, 8, 9 of the number pad", "from above, the front, the side"],
   ["F", "first view"],
   ["W", "wireframe"],
