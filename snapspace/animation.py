@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .arguments import as_path
+from .arguments import as_numbers, as_path, require_type
 from .disk import atomic_file
 from .gltf import film_targets, still_shape, write_glb
 from .mesh import SURFACE_OUTPUTS, TET_OUTPUTS, EmbeddedSurface, solid_of, write_surface, write_tets
@@ -74,6 +74,8 @@ def write_animation(
     """
     check_model(model, "write_animation", "give path, model, shapes")
     target = as_path("write_animation", path, what="file or folder")
+    cure = "give the vertices (n, 3) of each frame"
+    require_type("write_animation", "shapes", shapes, Iterable, cure)
     if target.suffix.lower() in (".gif", ".mp4"):
         from .pictures import save_film
 
@@ -185,7 +187,7 @@ def _write_series(path: Path, files: Sequence[Path], frames_per_second: float) -
 
 
 def _checked(shape: ArrayLike, model: ReducedModel) -> NDArray[np.float64]:
-    vertices = np.asarray(shape, np.float64)
+    vertices = as_numbers("write_animation", "the shapes", shape)
     expected = model.problem.mesh.vertices.shape
     if vertices.shape != expected:
         raise ValueError(

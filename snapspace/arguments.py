@@ -7,15 +7,21 @@ import operator
 import os
 from numbers import Integral, Real
 from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
 
 
-def require_count(who: str, name: str, value: int, *, at_least: int) -> int:
+def require_count(who: str, name: str, value: int, *, at_least: int | None = None) -> int:
     """Return `value` as an int, or raise a ValueError that names `who` and `name`."""
     try:
         count = operator.index(value)
     except TypeError:
-        raise ValueError(f"{who}: {name} is {value!r}, but must be a whole number") from None
-    if count < at_least:
+        raise ValueError(f"{who}: {name} is {shown(value)}, but must be a whole number") from None
+    if at_least is not None and count < at_least:
         raise ValueError(f"{who}: {name} is {count}, but must be at least {at_least}")
     return count
 
@@ -25,7 +31,7 @@ def require_finite(who: str, name: str, value: float) -> float:
     try:
         number = float(value)
     except (TypeError, ValueError):
-        raise ValueError(f"{who}: {name} is {value!r}, but must be a number") from None
+        raise ValueError(f"{who}: {name} is {shown(value)}, but must be a number") from None
     if not math.isfinite(number):
         raise ValueError(f"{who}: {name} is {number}, but must be finite")
     return number
@@ -39,9 +45,79 @@ def require_positive(who: str, name: str, value: float) -> float:
     return number
 
 
+def require_type(who: str, name: str, value: object, kinds: Any, cure: str) -> None:
+    """ValueError that names `who`, `name`, the type and the cure, for a value of other types."""
+    if not isinstance(value, kinds):
+        raise wrong_type(who, name, value, cure)
+
+
+def as_numbers(who: str, name: str, values: ArrayLike) -> FloatArray:
+    """An array of float64, not copied if it is one; ValueError for what are no numbers."""
+    try:
+        return np.asarray(values, np.float64)
+    except (TypeError, ValueError):
+        kind = type(values).__name__
+        raise ValueError(
+            f"{who}: {name} must be numbers, in rows of one length, but are of type {kind}"
+        ) from None
+
+
+def as_arrays(who: str, name: str, values: ArrayLike, *shape: int) -> FloatArray:
+    """One array of a shape, or several, (..., *shape), as float64; ValueError for other shapes."""
+    array = as_numbers(who, name, values)
+    if array.shape[-len(shape) :] != shape:
+        needed = ", ".join(map(str, shape))
+        raise ValueError(f"{who}: {name} have shape {array.shape}, but must be (..., {needed})")
+    return array
+
+
+def as_rows(who: str, name: str, values: ArrayLike) -> FloatArray:
+    """Rows (k, p) as float64; ValueError for another number of axes, such as a single row."""
+    rows = as_numbers(who, name, values)
+    if rows.ndim != 2:
+        cure = f"; a single one is {name}[None]" if rows.ndim == 1 else ""
+        raise ValueError(
+            f"{who}: {name} have shape {rows.shape}, but must be (k, p), one sample per row{cure}"
+        )
+    return rows
+
+
+def as_coordinates(who: str, q: ArrayLike, dimension: int) -> FloatArray:
+    """Reduced coordinates (d,) as float64; ValueError for another number of them."""
+    values = as_numbers(who, "q", q)
+    if values.shape != (dimension,):
+        raise ValueError(
+            f"{who}: q must have one entry per dimension, ({dimension},), but has the shape "
+            f"{values.shape}"
+        )
+    return values
+
+
+def require_dimension(who: str, dimension: int, largest: int) -> None:
+    """ValueError unless the dimension is a whole number from 1 to the largest."""
+    if not (is_whole(dimension) and 1 <= dimension <= largest):
+        raise ValueError(
+            f"{who}: dimension {shown(dimension)} is not between 1 and {largest}; give a whole "
+            "number up to that of the model"
+        )
+
+
+def shown(value: object) -> str:
+    """The value in one short line, an array by its shape."""
+    if isinstance(value, np.ndarray):
+        return f"an array of shape {value.shape}"
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 200 else f"{text[:200]}..."
+
+
 def is_number(value: object) -> bool:
     """Whether it is a real number, of Python or of NumPy."""
     return isinstance(value, Real)
+
+
+def is_finite(value: object) -> bool:
+    """Whether it is a finite real number, of Python or of NumPy."""
+    return isinstance(value, Real) and math.isfinite(value)
 
 
 def is_whole(value: object) -> bool:
@@ -53,8 +129,8 @@ def check_target(target_error: float) -> None:
     """Raises ValueError unless a target error is a number between 0 and 1."""
     if not (is_number(target_error) and 0 < target_error < 1):
         raise ValueError(
-            f"the target error is {target_error!r}, but it must be between 0 and 1: it is relative "
-            "to the displacement"
+            f"the target error is {shown(target_error)}, but it must be between 0 and 1: it is "
+            "relative to the displacement"
         )
 
 

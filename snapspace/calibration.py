@@ -9,6 +9,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from .arguments import require_count
 from .certificate import (
     ErrorEstimator,
     ResidualSample,
@@ -97,6 +98,7 @@ def calibrate(
     that start at the rest or mean shape. Another dimension of the model needs a new calibration.
     """
     check_model(model, "calibrate")
+    seed = None if seed is None else require_count("calibrate", "seed", seed, at_least=0)
     full = _full(model, reference, samples=samples, seed=seed, threads=threads, progress=progress)
     typical = _parameters(model.problem.domain, TYPICAL_FRAMES, seed=seed or 0, stream=3)
     chosen = _sample(model, typical, threads=threads)
@@ -141,8 +143,7 @@ def _full(
             )
         return reference
     count = SAMPLES if samples is None else samples
-    if count < 2:
-        raise ValueError(f"calibrate: samples is {count}, but must be at least 2")
+    count = require_count("calibrate", "samples", count, at_least=2)
     problem = model.problem
     # as tight as in `validate`: at 1e-7 the errors of a creature's frames come out 5 % too small
     solved = solve_snapshots(

@@ -8,7 +8,7 @@ from typing import Literal, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from .arguments import is_whole
+from .arguments import require_count
 
 FloatArray = NDArray[np.float64]
 Method = Literal["random", "sobol", "grid", "blends"]
@@ -94,15 +94,9 @@ def sample(
     if not isinstance(domain, Domain):
         cure = "give problem.domain" if hasattr(domain, "domain") else "give a HandleBox or Simplex"
         raise ValueError(f"sample: the domain is a {type(domain).__name__}; {cure}")
-    if not is_whole(count):
-        raise ValueError(f"sample: the number of samples is {count!r}, but must be a whole number")
-    if count < 1:
-        raise ValueError(f"sample: the number of samples is {count}, but must be at least 1")
-    if not is_whole(seed):
-        raise ValueError(f"sample: the seed is {seed!r}, but must be a whole number")
-    if seed < 0:
+    count = require_count("sample", "the number of samples", count, at_least=1)
+    if require_count("sample", "the seed", seed) < 0:
         raise ValueError(f"sample: the seed is {seed}, but must not be negative")
-    count = int(count)
     if method == "random":
         return domain.from_unit(np.random.default_rng(seed).random((count, domain.dimension)))
     if method == "sobol":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .arguments import is_whole
+from .arguments import is_whole, shown
 
 #: More are never useful, and far larger numbers do not fit in the core's integers.
 MOST_THREADS = 1024
@@ -13,7 +13,7 @@ def checked_threads(threads: int | None, who: str) -> int:
     if threads is None:
         return 0
     if not is_whole(threads):
-        raise ValueError(f"{who}: threads is {threads!r}, but must be a whole number, or None")
+        raise ValueError(f"{who}: threads is {shown(threads)}, but must be a whole number, or None")
     if not 0 <= threads <= MOST_THREADS:
         raise ValueError(
             f"{who}: threads is {threads}, but must be between 1 and {MOST_THREADS}, or None for "

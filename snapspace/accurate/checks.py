@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import numpy as np
-
+from ..arguments import is_finite, is_whole, shown
 from ..problem import InterpolationProblem, PosingProblem
 
 #: Fewest samples, and fewest held-out ones among them.
@@ -21,14 +20,16 @@ def check_problem(problem: object, who: str) -> None:
 
 def check_budget(budget: float | None) -> None:
     """Raises ValueError unless a budget in seconds is positive and finite, or None."""
-    if budget is not None and not (np.isfinite(budget) and budget > 0):
-        raise ValueError(f"the budget is {budget} seconds, but it must be positive and finite")
+    if budget is not None and not (is_finite(budget) and budget > 0):
+        raise ValueError(
+            f"the budget is {shown(budget)} seconds, but it must be positive and finite"
+        )
 
 
 def check_most(most_samples: int) -> None:
     """Raises ValueError for too few samples."""
-    if most_samples < FEWEST_SAMPLES:
+    if not is_whole(most_samples) or most_samples < FEWEST_SAMPLES:
         raise ValueError(
-            f"most_samples is {most_samples}, but at least {FEWEST_SAMPLES} are "
+            f"most_samples is {shown(most_samples)}, but at least {FEWEST_SAMPLES} are "
             "needed to train on some and judge by others"
         )

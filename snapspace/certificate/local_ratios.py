@@ -7,6 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import is_number, shown
+
 FloatArray = NDArray[np.float64]
 
 #: Kernel widths that are tried, in median distances to the nearest known frame; with the last one
@@ -78,8 +80,10 @@ class LocalRatios:
 
 def _rank(count: int, confidence: float) -> int:
     """ceil((k + 1) confidence), the rank of the bound among k; ValueError if above k."""
-    if not 0 < confidence < 1:
-        raise ValueError(f"certificate: confidence is {confidence}, but it must be between 0 and 1")
+    if not (is_number(confidence) and 0 < confidence < 1):
+        raise ValueError(
+            f"certificate: confidence is {shown(confidence)}, but it must be between 0 and 1"
+        )
     rank = math.ceil((count + 1) * confidence - 1e-9)
     if rank > count:
         needed = math.ceil(confidence / (1 - confidence) - 1e-9)

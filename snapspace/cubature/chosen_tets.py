@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import require_type
 from ..energy import ShellMaterial
 from ..material import Material
 from .local_rows import LocalRows
@@ -24,6 +25,7 @@ def check_chosen(
 
     A material of None is not checked.
     """
+    require_type(who, "weights", weights, np.ndarray, "give an array (r,)")
     r = len(tets)
     shape = (rows.tets, 9, rows.dimension) if isinstance(rows, LocalRows) else rows.shape
     if r == 0 or weights.shape != (r,) or len(shape) != 3 or shape[:2] != (r, 9):
@@ -43,5 +45,7 @@ def check_chosen(
 
 def check_in_mesh(tets: NDArray[np.int32], count: int, *, who: str) -> None:
     """Raises ValueError unless the mesh has all of these tets."""
+    if tets.dtype.kind not in "iu":
+        raise ValueError(f"{who}: tets must be whole numbers, got {tets.dtype}")
     if len(tets) and not 0 <= tets.min() <= tets.max() < count:
         raise ValueError(f"{who}: tets must be between 0 and {count - 1}")

@@ -8,10 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
+from ..arguments import as_coordinates, require_dimension, require_type
 from ..energy import ShellMaterial
 from ..material import Material
-from ..problem import PosingProblem
-from ..subspace import AffineSubspace
+from ..problem import PosingProblem, require_posing_problem
+from ..subspace import AffineSubspace, check_subspace
 from .chosen_tets import check_chosen, check_in_mesh
 from .elements import posed_elements_of
 from .local_rows import LocalRows, core_rows, dimension_of, leading_rows, products, stored
@@ -86,6 +87,10 @@ class Cubature:
         ValueError
             As for the constructor, or for a tet that the mesh does not have.
         """
+        require_posing_problem(problem, "Cubature")
+        check_subspace(subspace, "Cubature")
+        cure = "give an array (r,) of int32"
+        require_type("Cubature", "tets", tets, np.ndarray, cure)
         elements = posed_elements_of(problem)
         check_in_mesh(tets, len(elements.measures), who="Cubature")
         if remainder is None:
@@ -119,7 +124,7 @@ class Cubature:
 
     def value_and_gradient(self, q: ArrayLike) -> tuple[float, FloatArray]:
         """Energy at q and its gradient (d,)."""
-        at = np.asarray(q, np.float64)
+        at = self._at(q)
         value, gradient = self._core.value_and_gradient(at)
         if self.remainder is not None:
             half = self.remainder @ at
@@ -128,16 +133,16 @@ class Cubature:
 
     def hessian(self, q: ArrayLike) -> FloatArray:
         """Hessian at q, (d, d)."""
-        return self._with_remainder(self._core.derivatives(np.asarray(q, np.float64))[2])
+        return self._with_remainder(self._core.derivatives(self._at(q))[2])
 
     def stresses(self, q: ArrayLike) -> NDArray[np.float32]:
         """First Piola-Kirchhoff stresses of the tets times their weights, (r, 9)."""
-        stresses: NDArray[np.float32] = self._core.stresses(np.asarray(q, np.float64))
+        stresses: NDArray[np.float32] = self._core.stresses(self._at(q))
         return stresses
 
     def curvatures(self, q: ArrayLike) -> NDArray[np.float32]:
         """Hessians of the tets by their displacement gradients, times weights, (r, 9, 9)."""
-        curvatures: NDArray[np.float32] = self._core.curvatures(np.asarray(q, np.float64))
+        curvatures: NDArray[np.float32] = self._core.curvatures(self._at(q))
         return curvatures
 
     def rough_hessian(self, q: ArrayLike) -> FloatArray:
@@ -145,7 +150,11 @@ class Cubature:
         return self._with_remainder(summed_curvatures(self.rows, self.curvatures(q)))
 
     def leading(self, dimension: int) -> Cubature:
-        """The cubature of the same tets for the first `dimension` coordinates."""
+        """The cubature of the same tets for the first `dimension` coordinates.
+
+        ValueError unless there are that many.
+        """
+        require_dimension("Cubature", dimension, self.dimension)
         remainder = self.remainder
         if remainder is not None:
             remainder = np.ascontiguousarray(remainder[:dimension, :dimension])
@@ -160,6 +169,9 @@ class Cubature:
     def without_remainder(self) -> Cubature:
         """The sum over tets alone."""
         return Cubature(self.tets, self.weights, self.stored_rows, self.material)
+
+    def _at(self, q: ArrayLike) -> FloatArray:
+        return as_coordinates("Cubature", q, self.dimension)
 
     def _with_remainder(self, hessian: FloatArray) -> FloatArray:
         return hessian if self.remainder is None else hessian + 2.0 * self.remainder

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from .. import _core as core
+from ..arguments import as_arrays, require_type
 from .chosen_rows import chosen_rows
 
 FloatArray = NDArray[np.float64]
@@ -41,6 +42,7 @@ class DisplacementRows(Sequence[FloatArray]):
     """
 
     def __init__(self, rows: Iterable[FloatArray], size: int) -> None:
+        require_type("DisplacementRows", "rows", rows, Iterable, "give arrays (3n,), or (k, 3n)")
         self.size = size
         self._rows = tuple(rows)
         self._offset: FloatArray | None = None
@@ -83,6 +85,7 @@ class DisplacementRows(Sequence[FloatArray]):
 
     def shifted(self, offset: FloatArray) -> DisplacementRows:
         """The rows plus a vector (3n,), which is added whenever they are read."""
+        offset = as_arrays("DisplacementRows", "offset", offset, self.size)
         total = offset if self._offset is None else self._offset + offset
         shifted = self._with(self._rows)
         shifted._offset = total if total.any() else None
@@ -126,6 +129,7 @@ class DisplacementRows(Sequence[FloatArray]):
         That holds if all rows with a weight are finite. Rows without one do not count.
         threads : default all; the result is bitwise the same for any number
         """
+        weights = as_arrays("DisplacementRows", "weights", weights, len(self))
         combined = core.combine_rows(
             self._rows, self.size, np.ascontiguousarray(weights), threads=threads
         )
@@ -172,6 +176,8 @@ def shared_mass(mass: csr_array) -> core.MassProducts:
 
 
 def _check_row(row: FloatArray, index: int, size: int) -> None:
+    cure = f"give a float64 array of shape ({size},)"
+    require_type("DisplacementRows", f"row {index}", row, np.ndarray, cure)
     if row.dtype != np.float64 or row.shape != (size,) or not row.flags.c_contiguous:
         raise ValueError(
             f"DisplacementRows: row {index} is {row.dtype} of shape {row.shape}, but must be a "

@@ -9,8 +9,10 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import eigh
 from scipy.sparse import csr_array
 
+from ..arguments import require_count
 from ..blas import single_threaded_blas
-from ..problem import Problem
+from ..mesh import check_mass
+from ..problem import Problem, require_problem
 from .chosen_rows import chosen_rows
 from .displacement_rows import DisplacementRows, shared_mass
 
@@ -37,6 +39,7 @@ class SnapshotGram:
     """
 
     def __init__(self, mass: csr_array, *, offset: FloatArray | None = None) -> None:
+        check_mass(mass, who="SnapshotGram")
         self.mass = mass
         rows = DisplacementRows((), 3 * mass.shape[0])
         self._rows = rows if offset is None else rows.shifted(offset)
@@ -44,7 +47,11 @@ class SnapshotGram:
 
     @classmethod
     def of(cls, problem: Problem, *, lumped: bool = False) -> SnapshotGram:
-        """For displacements from a problem's `base`; the products are of those from its `tau`."""
+        """For displacements from a problem's `base`; the products are of those from its `tau`.
+
+        ValueError for something else than a problem.
+        """
+        require_problem(problem, "SnapshotGram.of")
         return cls(problem.mass(lumped=lumped), offset=problem.base - problem.tau)
 
     def __len__(self) -> int:
@@ -115,8 +122,7 @@ class SnapshotGram:
         ValueError
             For a dimension below 1, or without training rows.
         """
-        if dimension < 1:
-            raise ValueError(f"SnapshotGram: dimension is {dimension}, but must be at least 1")
+        dimension = require_count("SnapshotGram", "dimension", dimension, at_least=1)
         errors = self.held_out_errors(training, unseen)
         last: FloatArray = errors[min(dimension, len(errors) - 1)]
         return last
@@ -127,7 +133,10 @@ class SnapshotGram:
 
         k is the number of directions of the training rows; ValueError without training rows.
         """
-        known, new = (_indices(which, len(self)) for which in (training, unseen))
+        known, new = (
+            chosen_rows(which, len(self), who="SnapshotGram.held_out_errors")
+            for which in (training, unseen)
+        )
         if len(known) == 0:
             raise ValueError("SnapshotGram: there are no training rows, but at least one is needed")
         squared = self._matrix[new, new]
@@ -140,8 +149,3 @@ class SnapshotGram:
         zero = squared == 0.0
         errors: FloatArray = np.sqrt(left / np.where(zero, 1.0, squared))
         return errors
-
-
-def _indices(which: ArrayLike, count: int) -> NDArray[np.intp]:
-    indices: NDArray[np.intp] = np.arange(count)[np.asarray(which)]
-    return indices

@@ -9,8 +9,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import bsr_array, csr_array
 
 from .. import _core
+from ..arguments import as_numbers, is_number, shown
 from ..material import Material, checked_material
-from ..mesh import Body, check_body
+from ..mesh import Body, as_shape, check_body
 from .shell_material import Bending, element_material, is_of_stars
 from .vertex_stars import VertexStars
 
@@ -97,7 +98,7 @@ class ElasticEnergy:
 
     def hessian_product(self, x: ArrayLike, v: ArrayLike) -> FloatArray:
         """Hessian at x times v (3n,), matrix-free."""
-        direction = np.ascontiguousarray(v, dtype=np.float64).reshape(-1)
+        direction = as_numbers("ElasticEnergy", "the direction", v).reshape(-1)
         product: FloatArray = self.core.hessian_product(self._displacement(x), direction)
         return product
 
@@ -112,8 +113,10 @@ class ElasticEnergy:
         where no singular value is below the threshold; for St.Venant-Kirchhoff positive
         semi-definite at threshold 1. For solids; that of a shell is the `projected_hessian`.
         """
-        if not 0 < threshold <= 1:
-            raise ValueError(f"clamped_hessian: threshold is {threshold}, but must be in (0, 1]")
+        if not (is_number(threshold) and 0 < threshold <= 1):
+            raise ValueError(
+                f"clamped_hessian: threshold is {shown(threshold)}, but must be in (0, 1]"
+            )
         return self._projected(x, _core.Projection.stretches, threshold)
 
     def projected_hessian(self, x: ArrayLike, *, projection: str = "clamp") -> csr_array:
@@ -143,14 +146,8 @@ class ElasticEnergy:
         return int(self.core.inverted_tets(self._displacement(x)))
 
     def _displacement(self, x: ArrayLike) -> FloatArray:
-        positions = np.asarray(x, dtype=np.float64).reshape(-1)
         rest = self.mesh.vertices.reshape(-1)
-        if positions.shape != rest.shape:
-            raise ValueError(
-                f"ElasticEnergy: the shape has {positions.size} coordinates, but the mesh has "
-                f"{len(self.mesh.vertices)} vertices, which need {rest.size}"
-            )
-        return positions - rest
+        return as_shape(x, rest.size, who="ElasticEnergy") - rest
 
     def _projected(self, x: ArrayLike, projection: _core.Projection, threshold: float) -> csr_array:
         blocks = self.core.hessian_blocks(

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
+from ..arguments import is_whole, shown
 from ..material import ARAP, Material
 from ..mesh import Body, ShellMesh
 from .arap_triangles import star_hats
@@ -85,6 +86,11 @@ class PoseEnergies:
 
     def energy(self, pose: int) -> _core.ElasticEnergy:
         """E_k, compiled; it takes displacements (3n,) from the pose."""
+        if not (is_whole(pose) and 0 <= pose < len(self)):
+            raise ValueError(
+                f"InterpolationProblem: pose is {shown(pose)}, but must be between 0 and "
+                f"{len(self) - 1}"
+            )
         if pose not in self._compiled:
             self._compiled[pose] = _core.ElasticEnergy(
                 self._shapes[pose], self.corners, self.materials[pose].core

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import is_number, shown
 from ..counted import counted
 from ..doctor import mend_surface
 from ..doctor.components import parts_apart
@@ -125,8 +126,8 @@ def _one_part(points: FloatArray, triangles: IndexArray, *, who: str) -> IndexAr
 
 def check_share(value: float, name: str, *, largest: float, who: str) -> None:
     """Raises ValueError unless a share of the diagonal is positive and not too large."""
-    if not 0 < value <= largest:
+    if not (is_number(value) and 0 < value <= largest):
         raise ValueError(
-            f"{who}: {name} is {value}, but must be positive and at most {largest:g}; it is "
+            f"{who}: {name} is {shown(value)}, but must be positive and at most {largest:g}; it is "
             "a share of the diagonal"
         )

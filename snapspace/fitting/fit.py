@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
+from ..arguments import is_finite, require_count, shown
 from ..blas import single_threaded_blas
 from ..interruptible import run_interruptible
 from ..mesh import TetMesh
@@ -194,13 +195,12 @@ class _Fitting:
 
 def _check_options(deviation: float, max_iterations: int, threads: int | None) -> None:
     check_deviation(deviation)
-    if max_iterations < 1:
-        raise ValueError(f"fit_poses: max_iterations is {max_iterations}, but must be at least 1")
+    require_count("fit_poses", "max_iterations", max_iterations, at_least=1)
     if threads is not None and threads < 1:
         raise ValueError(f"fit_poses: threads is {threads}, but must be at least 1")
 
 
 def check_deviation(deviation: float) -> None:
     """Raises ValueError unless the goal is positive and finite."""
-    if not (np.isfinite(deviation) and deviation > 0):
-        raise ValueError(f"fit_poses: deviation is {deviation}, but it must be positive")
+    if not (is_finite(deviation) and deviation > 0):
+        raise ValueError(f"fit_poses: deviation is {shown(deviation)}, but it must be positive")

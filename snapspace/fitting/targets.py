@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array, diags_array
 
+from ..arguments import as_numbers, require_type
 from ..mesh import TetMesh
 from ..mesh.embedded_surface import EmbeddedSurface
 from ..registration import rigid_registration
@@ -22,6 +23,9 @@ def checked_targets(
 
     The corners of the surface must be vertices of the mesh.
     """
+    require_type("fit_poses", "mesh", mesh, TetMesh, "give mesh, surface, targets")
+    cure = "give that of embed_surface or boundary_surface"
+    require_type("fit_poses", "surface", surface, EmbeddedSurface, cure)
     count = len(surface.corners)
     if surface.corners.max() >= len(mesh.vertices):
         point = int(np.flatnonzero((surface.corners >= len(mesh.vertices)).any(axis=1))[0])
@@ -29,7 +33,7 @@ def checked_targets(
             f"fit_poses: point {point} of the surface has vertex {surface.corners[point].max()}, "
             f"but the mesh has {len(mesh.vertices)}; the surface must be embedded in this mesh"
         )
-    surfaces = np.ascontiguousarray(targets, dtype=np.float64)
+    surfaces = np.ascontiguousarray(as_numbers("fit_poses", "targets", targets))
     if surfaces.ndim != 3 or surfaces.shape[1:] != (count, 3) or len(surfaces) == 0:
         raise ValueError(
             f"fit_poses: targets have shape {surfaces.shape}, but the surface has {count} points, "

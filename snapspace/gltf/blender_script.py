@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arguments import as_path
+from ..arguments import as_path, require_type, shown
 from ..disk.atomic_file import atomic_file
 from ..mesh import EmbeddedSurface
 from ..reduction import ReducedModel, check_model
@@ -186,12 +186,18 @@ def write_blender(
     Raises
     ------
     ValueError
-        For an unknown extension, or if the file cannot be written.
+        For arguments of other types, an unknown extension or axis, or if the file cannot be
+        written.
     """
     check_model(model, "write_blender", "give path, model, morphs")
+    cure = "give those of mode_targets"
+    require_type("write_blender", "morphs", morphs, MorphTargets, cure)
     path = as_path("write_blender", path)
     if path.suffix.lower() != ".py":
         raise ValueError(f"{path}: the name of a script for Blender must end in .py")
+    if up not in (None, "x", "y", "z"):
+        raise ValueError(f"write_blender: up is {shown(up)}, but it must be one of x, y, z")
+    require_type("write_blender", "name", name, str | None, "give a string")
     corners, starts = _polygons(model.surface)
     rest = model.surface.vertices(model.problem.mesh.vertices)
     moves = morphs.targets * _largest_weights(model, morphs)[:, None, None]

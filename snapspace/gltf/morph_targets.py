@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import as_numbers, require_count
 from ..blas import single_threaded_blas
 from ..mesh import vertex_normals
 from ..reduction import ReducedModel, check_model
@@ -62,7 +63,7 @@ def mode_targets(model: ReducedModel, shapes: ArrayLike | None = None) -> MorphT
     weights = np.zeros((0, subspace.dimension))
     error = 0.0
     if shapes is not None:
-        given = np.asarray(shapes, np.float64)
+        given = _given(shapes, "mode_targets")
         weights = subspace.coordinates(given.reshape(len(given), -1))
         error = _largest_distance(base, targets, weights, _on_surface(model, given))
     known = model.training_coordinates
@@ -95,7 +96,8 @@ def fitted_targets(model: ReducedModel, shapes: ArrayLike, *, count: int = 8) ->
         For no shapes, or a count that is not positive.
     """
     check_model(model, "fitted_targets")
-    given = np.asarray(shapes, np.float64)
+    given = _given(shapes, "fitted_targets")
+    count = require_count("fitted_targets", "count", count)
     if len(given) == 0 or count < 1:
         raise ValueError(
             f"fitted_targets: needs shapes and at least one target, not {len(given)} shapes and "
@@ -113,7 +115,8 @@ def fitted_targets(model: ReducedModel, shapes: ArrayLike, *, count: int = 8) ->
 
 
 def still_shape(model: ReducedModel, shape: ArrayLike) -> MorphTargets:
-    """One shape (n, 3) without any targets."""
+    """One shape (n, 3) without any targets; ValueError for a shape of another mesh."""
+    check_model(model, "still_shape")
     base = model.surface.vertices(shape)
     drawn = drawn_surface(model.surface)
     none = np.zeros((0, *base.shape))
@@ -126,6 +129,14 @@ def unit_normals(vertices: FloatArray, faces: NDArray[np.int32]) -> FloatArray:
     normals = vertex_normals(vertices, faces)
     normals[~normals.any(axis=1)] = (0.0, 0.0, 1.0)
     return normals
+
+
+def _given(shapes: ArrayLike, who: str) -> FloatArray:
+    """Shapes (k, n, 3) or (k, 3n); ValueError for a single one, or what are no numbers."""
+    given = as_numbers(who, "shapes", shapes)
+    if given.ndim not in (2, 3):
+        raise ValueError(f"{who}: shapes have shape {given.shape}, but must be (k, n, 3)")
+    return given
 
 
 def _on_surface(model: ReducedModel, shapes: FloatArray) -> FloatArray:

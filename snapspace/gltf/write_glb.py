@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arguments import as_path
+from ..arguments import as_numbers, as_path, is_finite, require_type, shown
 from ..disk import atomic_file
 from ..reduction import ReducedModel, check_model
 from .glb_file import GlbFile
@@ -70,7 +70,8 @@ def write_glb(
     Raises
     ------
     ValueError
-        For another extension, an unknown axis, or a frame rate that is not positive.
+        For arguments of other types, colours of another shape, another extension, an unknown axis,
+        or a frame rate that is not positive.
 
     Warns
     -----
@@ -81,11 +82,22 @@ def write_glb(
     target = as_path("write_glb", path)
     if target.suffix.lower() != ".glb":
         raise ValueError(f"write_glb: {target} must end in .glb")
+    cure = "give those of mode_targets, fitted_targets or still_shape"
+    require_type("write_glb", "morphs", morphs, MorphTargets, cure)
     axis = model.up if up is None else up
-    if axis not in _TO_Y:
-        raise ValueError(f"write_glb: up is '{axis}', but it must be one of x, y, z")
-    if not (np.isfinite(frames_per_second) and frames_per_second > 0.0):
-        raise ValueError(f"write_glb: frames_per_second {frames_per_second} must be positive")
+    if axis not in tuple(_TO_Y):
+        raise ValueError(f"write_glb: up is {shown(axis)}, but it must be one of x, y, z")
+    if not (is_finite(frames_per_second) and frames_per_second > 0.0):
+        rate = shown(frames_per_second)
+        raise ValueError(f"write_glb: frames_per_second {rate} must be positive")
+    if colors is not None:
+        colors = as_numbers("write_glb", "colors", colors)
+        if colors.shape != morphs.base.shape:
+            raise ValueError(
+                f"write_glb: colors have shape {colors.shape}, but must be {morphs.base.shape}, "
+                "one row per vertex of the surface"
+            )
+    require_type("write_glb", "name", name, str | None, "give a string")
     if len(morphs.weights) > 1:
         morphs = with_sliders(morphs)
     file, drawn, origin = GlbFile(), morphs.drawn, _origin(morphs.base)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..arguments import check_target, require_count
 from ..displacements import SnapshotGram
 from ..input_error import located
-from ..problem import InterpolationProblem, PosingProblem
+from ..problem import InterpolationProblem, PosingProblem, require_problem
 from ..sampling import sample
 from ..snapshots import (
     Checkpoint,
@@ -104,6 +104,7 @@ def greedy_snapshots(
     itself, and for the same time it is worse, see docs/notes/sampling.md. PCA minimises a mean over
     the samples, so samples spread over the whole domain are best for the mean over the domain.
     """
+    require_problem(problem, "greedy_snapshots")
     _check(problem, known, count=count, dimension=dimension, batch=batch, candidates=candidates)
     if target is not None:
         with located("greedy_snapshots"):

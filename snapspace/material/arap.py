@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from numbers import Real
 from typing import ClassVar
 
+from ..arguments import shown
 from .material import SETTING
 from .shear_material import ShearMaterial
 
@@ -51,7 +52,7 @@ class ARAP(ShearMaterial):
         super().__post_init__()
         if not (isinstance(self.radius, Real) and 0.0 <= self.radius <= 1.0):
             raise ValueError(
-                f"ARAP: radius is {self.radius!r}, but must be a number from 0 to 1, relative to "
-                "the diagonal"
+                f"ARAP: radius is {shown(self.radius)}, but must be a number from 0 to 1, relative "
+                "to the diagonal"
             )
         object.__setattr__(self, "radius", float(self.radius))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..arguments import shown
 from .arap import ARAP, BLEND_RADIUS, SURFACE_RADIUS
 from .corotational import Corotational
 from .material import Material
@@ -49,7 +50,7 @@ def checked_material(material: Any, count: int, who: str) -> Material:
     if type(material) not in MATERIALS.values():
         known = ", ".join(one.__name__ for one in MATERIALS.values())
         raise ValueError(
-            f"{who}: material is {repr(material)[:60]} of type {type(material).__name__}, but it "
+            f"{who}: material is {shown(material)[:60]} of type {type(material).__name__}, but it "
             f"must be one of {known}"
         )
     checked: Material = material

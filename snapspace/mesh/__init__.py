@@ -7,6 +7,7 @@ from .embedded_surface import EmbeddedSurface, boundary_surface
 from .file_kind import file_kind
 from .mass import (
     apply_mass,
+    check_mass,
     mass_gram,
     mass_inner,
     mass_matrix,
@@ -14,12 +15,12 @@ from .mass import (
     mass_norms,
     mass_of_cells,
 )
-from .mirror_plane import MirrorPlane
+from .mirror_plane import MirrorPlane, check_plane
 from .quality import dihedral_angles, tet_volumes, triangle_areas
 from .read import TET_SUFFIXES, MeshNotice, read_tet_arrays, read_tets
 from .read_surface import SURFACE_SUFFIXES, read_surface
 from .repair import repair_tets
-from .shape_rows import shape_or_rows, shape_rows
+from .shape_rows import as_shape, shape_or_rows, shape_rows
 from .shell_mesh import ShellMesh
 from .shell_of_file import shell_of_file
 from .solid import solid_of
@@ -43,9 +44,12 @@ __all__ = [
     "SurfaceMaterial",
     "TetMesh",
     "apply_mass",
+    "as_shape",
     "boundary_faces",
     "boundary_surface",
     "check_body",
+    "check_mass",
+    "check_plane",
     "compact_surface",
     "dihedral_angles",
     "embed_file",

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
 
+from ..arguments import is_number, require_type, shown
 from .arrays import FloatArray, as_indices, as_points
 from .embedded_surface import EmbeddedSurface, single_vertices
 from .surface_file import SurfaceFile
@@ -56,13 +57,20 @@ def embed_surface(
     Raises
     ------
     ValueError
-        For wrong shapes or types, coordinates that are not finite, an index out of range, or a
-        vertex that lies farther outside the mesh than is allowed.
+        For wrong shapes or types, a negative `farthest`, coordinates that are not finite, an index
+        out of range, or a vertex that lies farther outside the mesh than is allowed.
 
     Notes
     -----
     Where parts of the surface overlap or nearly touch, a vertex may be in a tet of the other part.
     """
+    cure = "give the TetMesh that fills the surface"
+    require_type("embed_surface", "mesh", mesh, TetMesh, cure)
+    if not (is_number(farthest) and farthest >= 0):
+        raise ValueError(
+            f"embed_surface: farthest is {shown(farthest)}, but it must be zero or positive: it is "
+            "a share of the mesh's diagonal"
+        )
     points = as_points(vertices, who="embed_surface")
     triangles = as_indices(faces, corners=3, who="embed_surface", what="faces")
     check_points(points, who="embed_surface")

@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import coo_array, csr_array
 
+from ..arguments import as_numbers, require_count
 from .arrays import FloatArray, IndexArray, as_indices
 from .body import Body
+from .check_body import check_body
 from .surface import compact_surface
 from .surface_file import SurfaceFile
 from .validation import check_indices
@@ -130,7 +132,7 @@ class EmbeddedSurface:
         ValueError
             For another shape, or fewer vertices than the corners need.
         """
-        x = np.asarray(shape, np.float64)
+        x = as_numbers("EmbeddedSurface", "the shape", shape)
         if not ((x.ndim == 1 and x.size % 3 == 0) or (x.ndim == 2 and x.shape[1] == 3)):
             raise ValueError(f"EmbeddedSurface: a shape must be (n, 3) or (3n,), got {x.shape}")
         x = x.reshape(-1, 3)
@@ -155,6 +157,7 @@ class EmbeddedSurface:
         ValueError
             If the corners need more vertices.
         """
+        require_count("EmbeddedSurface", "vertex_count", vertex_count)
         self._check_vertex_count(vertex_count)
         used = self._map
         arrays = (used.data.copy(), used.indices.copy(), used.indptr.copy())
@@ -202,6 +205,12 @@ def boundary_surface(mesh: Body) -> EmbeddedSurface:
     EmbeddedSurface
         Exact. Its vertices are `mesh.vertices[mesh.surface_vertices]`, in this order, its faces
         those of `mesh.surface`: for tets closed and outward, for a shell its triangles.
+
+    Raises
+    ------
+    ValueError
+        For something else than a mesh.
     """
+    check_body(mesh, "boundary_surface")
     _, faces = compact_surface(mesh.vertices, mesh.surface)
     return single_vertices(faces, mesh.surface_vertices)

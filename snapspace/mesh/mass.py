@@ -10,8 +10,9 @@ from itertools import combinations
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.sparse import coo_array, csr_array, diags_array
+from scipy.sparse import coo_array, csr_array, diags_array, issparse
 
+from ..arguments import wrong_type
 from .arrays import FloatArray, IndexArray
 from .body import Body
 from .check_body import check_body
@@ -56,6 +57,15 @@ def mass_of_cells(cells: IndexArray, volumes: FloatArray, *, lumped: bool = Fals
     above = csr_array(coo_array((values, (pairs[:, 0], pairs[:, 1])), shape=(n, n)))
     twice = np.repeat(2.0 * volumes / (k * (k + 1.0)), k)
     return csr_array(above + above.T + diags_array(np.bincount(cells.ravel(), twice, minlength=n)))
+
+
+def check_mass(mass: csr_array, size: int | None = None, *, who: str) -> None:
+    """ValueError of `who` unless it is a sparse matrix (n, n), for shape vectors of a size 3n."""
+    if not issparse(mass):
+        raise wrong_type(who, "mass", mass, "give mass_matrix(mesh) or problem.mass()")
+    n = mass.shape[0] if size is None else size // 3
+    if mass.shape != (n, n):
+        raise ValueError(f"{who}: mass has shape {mass.shape}, but must be ({n}, {n})")
 
 
 def apply_mass(mass: csr_array, shapes: ArrayLike) -> FloatArray:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import as_arrays, require_finite, require_type, shown
 from .arrays import FloatArray
 
 Vector = tuple[float, float, float]
@@ -33,7 +34,8 @@ class MirrorPlane:
     Raises
     ------
     ValueError
-        For a normal or a point that is not three finite numbers, or a normal of length zero.
+        For a normal or a point that is not three finite numbers, a normal of length zero, or a
+        deviation that is not finite. Its methods raise it for arrays of another shape.
 
     Examples
     --------
@@ -53,6 +55,8 @@ class MirrorPlane:
         if abs(np.linalg.norm(normal) - 1.0) > _ROUNDING:  # else files give back the same plane
             normal = normal / largest
             normal = normal / np.linalg.norm(normal)
+        if self.deviation is not None:
+            require_finite("MirrorPlane", "deviation", self.deviation)
         object.__setattr__(self, "normal", tuple(normal.tolist()))
         object.__setattr__(self, "point", tuple(point.tolist()))
 
@@ -69,13 +73,13 @@ class MirrorPlane:
 
     def points(self, points: ArrayLike) -> FloatArray:
         """Mirror images of positions, (..., 3)."""
-        given, normal = np.asarray(points, np.float64), np.array(self.normal)
+        given, normal = as_arrays("MirrorPlane", "points", points, 3), np.array(self.normal)
         along = (given - np.array(self.point)) @ normal
         return np.asarray(given - 2.0 * along[..., None] * normal)
 
     def vectors(self, vectors: ArrayLike) -> FloatArray:
         """Mirror images of translations, (..., 3)."""
-        return np.asarray(np.asarray(vectors, np.float64) @ self.matrix)
+        return np.asarray(as_arrays("MirrorPlane", "vectors", vectors, 3) @ self.matrix)
 
     def rotations(self, rotations: ArrayLike) -> FloatArray:
         """Mirror images H R H of rotations, (..., 3, 3).
@@ -83,7 +87,8 @@ class MirrorPlane:
         Their axes are axial vectors: a rotation about the normal stays, one about an axis in the
         plane is reversed.
         """
-        return np.asarray(self.matrix @ np.asarray(rotations, np.float64) @ self.matrix)
+        given = as_arrays("MirrorPlane", "rotations", rotations, 3, 3)
+        return np.asarray(self.matrix @ given @ self.matrix)
 
     def bounds(self, bounds: ArrayLike) -> FloatArray:
         """The least half widths, (..., 3), of a box that has the mirror image of a centred box.
@@ -91,7 +96,12 @@ class MirrorPlane:
         For translations up to `bounds`, and to first order for angles. Along the coordinate axes
         nothing changes; across an oblique plane the box grows.
         """
-        return np.asarray(np.asarray(bounds, np.float64) @ np.abs(self.matrix))
+        return np.asarray(as_arrays("MirrorPlane", "bounds", bounds, 3) @ np.abs(self.matrix))
+
+
+def check_plane(plane: object, who: str) -> None:
+    """ValueError of `who` for something else than a mirror plane, such as a normal."""
+    require_type(who, "plane", plane, MirrorPlane, "give MirrorPlane(normal, point)")
 
 
 def _three(values: ArrayLike, what: str) -> FloatArray:
@@ -101,6 +111,6 @@ def _three(values: ArrayLike, what: str) -> FloatArray:
         array = np.empty(0)
     if array.shape != (3,) or not np.isfinite(array).all():
         raise ValueError(
-            f"MirrorPlane: the {what} must be three finite numbers, got {values!r:.60}"
+            f"MirrorPlane: the {what} must be three finite numbers, got {shown(values)}"
         )
     return array

@@ -1,9 +1,11 @@
-"""shape_rows, shape_or_rows: checked blocks of shapes, one sample per row."""
+"""shape_rows, shape_or_rows, as_shape: checked shapes, and blocks of one per row."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from ..arguments import as_numbers
 
 FloatArray = NDArray[np.float64]
 
@@ -24,7 +26,7 @@ def shape_rows(shapes: ArrayLike, size: int, *, who: str, what: str = "shapes") 
     ValueError
         For an array of another shape. The error says how to convert (3n, k), (k, n, 3) and (3n,).
     """
-    x = np.asarray(shapes, np.float64)
+    x = as_numbers(who, what, shapes)
     if x.ndim != 2 or x.shape[1] != size:
         raise ValueError(_message(x.shape, size, f"(k, {size}), one shape per row", who, what))
     return x
@@ -32,11 +34,22 @@ def shape_rows(shapes: ArrayLike, size: int, *, who: str, what: str = "shapes") 
 
 def shape_or_rows(shapes: ArrayLike, size: int, *, who: str, what: str = "shapes") -> FloatArray:
     """The same for one shape (3n,), which stays a vector, or for several, (k, 3n)."""
-    x = np.asarray(shapes, np.float64)
+    x = as_numbers(who, what, shapes)
     if x.ndim not in (1, 2) or x.shape[-1] != size:
         needed = f"({size},) or (k, {size}), one shape per row"
         raise ValueError(_message(x.shape, size, needed, who, what))
     return x
+
+
+def as_shape(x: ArrayLike, size: int, *, who: str) -> FloatArray:
+    """A shape as (3n,) float64, from (3n,) or (n, 3); ValueError for another number of entries."""
+    positions = as_numbers(who, "the shape", x).reshape(-1)
+    if positions.size != size:
+        raise ValueError(
+            f"{who}: the shape has {positions.size} coordinates, but the mesh has {size // 3} "
+            f"vertices, which need {size}"
+        )
+    return positions
 
 
 def _message(got: tuple[int, ...], size: int, needed: str, who: str, what: str) -> str:

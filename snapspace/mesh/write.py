@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import as_path
+from ..arguments import as_path, require_type
 from ..disk.atomic_file import atomic_file
 from ..notice import notify
 from .arrays import FloatArray, IndexArray, as_indices, as_points
@@ -65,6 +65,9 @@ def write_tets(
         For an unknown extension, a folder that does not exist or cannot be written, wrong shapes,
         or values that are not finite. An existing file at `path` then stays as it was.
     """
+    require_type("write_tets", "mesh", mesh, TetMesh, "give path, mesh")
+    cure = "give a dictionary of arrays by name"
+    require_type("write_tets", "point_data", point_data, Mapping | None, cure)
     file = writable_path(as_path("write_tets", path), known=_TET_FORMATS)
     points = _shape_to_write(mesh, vertices)
     data = {

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import require_type
 from ..disk.safetensors_bytes import safetensors_bytes
 from ..mesh import EmbeddedSurface
 from ..model_file.appearance import appearance_arrays
@@ -81,8 +82,9 @@ def packed(
     TypeError
         For a model of an unknown type.
     ValueError
-        For an unknown axis.
+        For an unknown axis, or a title that is no string.
     """
+    require_type("packed", "the title", name, str, "give a string")
     if up is None:
         up = getattr(model, "up", "z")
     if up not in AXES:

@@ -7,6 +7,7 @@ import gzip
 import html
 import warnings
 
+from ..arguments import is_number, shown
 from ..reduction import ReducedModel
 from .export import page_with_model
 
@@ -55,8 +56,10 @@ class NotebookPage:
     """
 
     def __init__(self, model: ReducedModel, *, title: str, up: str | None, height: int) -> None:
-        if height < 100:
-            raise ValueError(f"show: height is {height} pixels, but the page needs 100 or more")
+        if not (is_number(height) and height >= 100):
+            raise ValueError(
+                f"show: height is {shown(height)} pixels, but the page needs 100 or more"
+            )
         self._title, self._height = title, height
         self._output = self._framed(page_with_model(model, title=title, up=up))
         if len(self._output) > MOST_BYTES:

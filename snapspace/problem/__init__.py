@@ -17,6 +17,7 @@ from .problem_file import (
     read_problem,
     read_problem_surface,
 )
+from .problem_types import require_posing_problem, require_problem
 from .region import in_box, in_sphere
 from .shell_poses import ShellPoses
 from .simplex import Simplex
@@ -50,6 +51,8 @@ __all__ = [
     "problem_thickness",
     "read_problem",
     "read_problem_surface",
+    "require_posing_problem",
+    "require_problem",
     "rigid_offset",
     "rotation_matrix",
     "solutions_beyond_tau",

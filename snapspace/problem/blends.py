@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import as_numbers
 from .corner_sets import pairs_in_rounds, triples_in_circles
 
 FloatArray = NDArray[np.float64]
@@ -100,3 +101,17 @@ def _in_triangle(number: int) -> FloatArray:
             triangle = 0.5 * (triangle + triangle[digit - 1])
     middle: FloatArray = triangle.mean(axis=0)
     return middle
+
+
+def shape_and_weights(
+    x: ArrayLike, weights: ArrayLike, size: int, count: int
+) -> tuple[FloatArray, FloatArray]:
+    """A shape (size,) and weights (count,) as float64; ValueError for other numbers of them."""
+    positions = as_numbers("InterpolationProblem", "the shape", x).reshape(-1)
+    w = as_numbers("InterpolationProblem", "weights", weights)
+    if positions.size != size or w.shape != (count,):
+        raise ValueError(
+            f"InterpolationProblem: needs {size} coordinates and {count} weights, got "
+            f"{positions.size} and {w.shape}"
+        )
+    return positions, w

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arguments import is_whole, wrong_type
+from ..arguments import as_arrays, is_whole, require_count, shown, wrong_type
 
 FloatArray = NDArray[np.float64]
 Vector = tuple[float, float, float]
@@ -133,10 +133,12 @@ class HandleBox:
 
     def from_unit(self, points: FloatArray) -> FloatArray:
         """Maps points of the unit cube, (k, dimension) in [0, 1], onto the box."""
+        points = as_arrays("HandleBox", "points", points, self.dimension)
         return (2.0 * points - 1.0) * self.half_widths
 
     def to_unit(self, parameters: FloatArray) -> FloatArray:
         """Inverse of `from_unit`; a parameter whose bound is zero becomes 0.5."""
+        parameters = as_arrays("HandleBox", "parameters", parameters, self.dimension)
         widths = self.half_widths
         scaled = np.divide(
             parameters, widths, out=np.zeros_like(parameters, dtype=np.float64), where=widths > 0
@@ -149,6 +151,7 @@ class HandleBox:
         k is the largest product up to `count` (at least 1) of nearly equal numbers per free axis;
         earlier axes are divided first.
         """
+        require_count("HandleBox", "count", count)
         per_axis = [1] * self.dimension
         axes = itertools.cycle(np.flatnonzero(self.free_axes).tolist())
         axis = next(axes)
@@ -173,7 +176,7 @@ def _numbers(value: Any, name: str) -> FloatArray:
     if bounds.ndim > 2 or bounds.shape[bounds.ndim - 1 :] not in ((), (3,)) or not bounds.size:
         raise ValueError(
             f"HandleBox: {name} must be one number, three, or three for each moving handle, got "
-            f"{value!r}".replace("\n", "")
+            f"{shown(value)}"
         )
     return bounds
 

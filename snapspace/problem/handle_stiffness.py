@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import is_finite, is_number, wrong_type
 from ..material import Material
 from ..mesh import Body
 
@@ -19,6 +20,15 @@ FloatArray = NDArray[np.float64]
 #: In units of the shear modulus over the squared diagonal: holds handles to about a ten-thousandth
 #: of the diagonal. Problems made by hand have 1.6e5 to 4e5.
 RELATIVE_STIFFNESS = 2e5
+
+
+def checked_stiffness(stiffness: float) -> float:
+    """The weight of the handles as a float; ValueError unless it is positive and finite."""
+    if not is_number(stiffness):
+        raise wrong_type("PosingProblem", "stiffness", stiffness, "give a positive number")
+    if not (is_finite(stiffness) and stiffness > 0):
+        raise ValueError(f"PosingProblem: stiffness is {stiffness}, but it must be positive")
+    return float(stiffness)
 
 
 def usual_stiffness(mesh: Body, material: Material) -> float:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..arguments import wrong_type
+from ..arguments import require_type, wrong_type
 from .names import check_names
 
 IndexArray = NDArray[np.int32]
@@ -74,6 +74,9 @@ class Handles:
         if isinstance(vertices, Mapping):
             cure = "give list(parts.values()), names=list(parts), the fixed one first"
             raise wrong_type("Handles", "vertices", vertices, cure)
+        if not hasattr(vertices, "__len__"):
+            cure = "give a list with the vertices of each handle, the fixed one first"
+            raise wrong_type("Handles", "vertices", vertices, cure)
         if names is None:
             names = [f"handle_{i}" for i in range(len(vertices))]
         check_names(names, len(vertices), who="Handles", what=f"{len(vertices)} handles")
@@ -100,6 +103,7 @@ class Handles:
 
     def places_in(self, others: Handles) -> tuple[int | None, ...]:
         """For each handle, the position among others of the one with the same vertices, or None."""
+        require_type("Handles.places_in", "others", others, Handles, "give Handles")
         places = {handle.vertices.tobytes(): place for place, handle in enumerate(others)}
         return tuple(places.get(handle.vertices.tobytes()) for handle in self)
 
@@ -126,7 +130,9 @@ class Handles:
 
         ValueError if there is no such handle.
         """
-        return _handles([self[name], *(handle for handle in self if handle.name != name)])
+        return _handles(
+            [self[self.index(name)], *(handle for handle in self if handle.name != name)]
+        )
 
     def __len__(self) -> int:
         return len(self._handles)

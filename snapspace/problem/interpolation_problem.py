@@ -17,7 +17,9 @@ from ..energy import PoseEnergies, ShellMaterial, is_of_stars
 from ..interruptible import run_abandonable
 from ..material import Material, checked_material, default_material
 from ..mesh import ShellMesh, TetMesh, mass_matrix, mass_of_cells, tet_volumes, triangle_areas
+from ..mesh.shape_rows import as_shape
 from ..registration import registered
+from .blends import shape_and_weights
 from .certain_range import CertainRange, certain_range
 from .mean_shape import checked_mean_shape, mean_displacement
 from .pose_sets import as_poses, pose_arguments, restored_poses
@@ -186,10 +188,10 @@ class InterpolationProblem:
 
     def volumes(self, x: ArrayLike) -> FloatArray:
         """Signed volumes (m,) of tets, or areas times thickness, at positions (3n,) or (n, 3)."""
-        vertices, mesh = np.asarray(x, np.float64).reshape(-1, 3), self.mesh
-        if isinstance(mesh, ShellMesh):
-            return np.asarray(triangle_areas(vertices, mesh.cells) * mesh.thickness)
-        return tet_volumes(vertices, mesh.cells)
+        vertices = as_shape(x, self.base.size, who="InterpolationProblem").reshape(-1, 3)
+        if isinstance(self.mesh, ShellMesh):
+            return np.asarray(triangle_areas(vertices, self.mesh.cells) * self.mesh.thickness)
+        return tet_volumes(vertices, self.mesh.cells)
 
     def check(self, parameters: FloatArray) -> None:
         """ValueError unless the weights (p,) are in the domain."""
@@ -223,13 +225,7 @@ class InterpolationProblem:
 
     def value_and_gradient(self, x: ArrayLike, weights: ArrayLike) -> tuple[float, FloatArray]:
         """F(x, w) at positions x (3n,) for any weights (p,), and its gradient (3n,) by x."""
-        w = np.asarray(weights, np.float64)
-        positions = np.asarray(x, np.float64).reshape(-1)
-        if positions.shape != self.base.shape or w.shape != (self.parameter_count,):
-            raise ValueError(
-                f"InterpolationProblem: needs {self.base.size} coordinates and "
-                f"{self.parameter_count} weights, got {positions.size} and {w.shape}"
-            )
+        positions, w = shape_and_weights(x, weights, self.base.size, self.parameter_count)
         value, gradient = self.system.value_and_gradient(positions - self.base, w)
         return value, gradient
 

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
+from ..arguments import as_numbers
 from ..interruptible import run_interruptible
 
 FloatArray = NDArray[np.float64]
@@ -20,7 +21,7 @@ _MOST_STAGES = 200
 
 def checked_mean_shape(shape: ArrayLike, size: int) -> FloatArray:
     """A mean shape (3n,) that is already known; ValueError for another size than that of poses."""
-    x = np.array(shape, np.float64).reshape(-1)
+    x = as_numbers("InterpolationProblem", "the mean shape", shape).reshape(-1).copy()
     if len(x) != size:
         raise ValueError(
             f"InterpolationProblem: the mean shape has {len(x)} coordinates, but the poses have "

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ..arguments import wrong_type
+
 
 def check_names(names: Sequence[str], count: int, *, who: str, what: str) -> None:
     """ValueError unless there are `count` names, none is empty and none is used twice.
@@ -12,6 +14,8 @@ def check_names(names: Sequence[str], count: int, *, who: str, what: str) -> Non
     """
     if isinstance(names, str):
         raise ValueError(f"{who}: names is the string '{names}', but must be a list of names")
+    if not isinstance(names, Sequence):
+        raise wrong_type(who, "names", names, "give a list of names")
     if len(names) != count:
         raise ValueError(f"{who}: got {len(names)} names for {what}")
     for name in names:

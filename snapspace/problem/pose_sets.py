@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import require_type
 from ..mesh import ShellMesh, TetMesh
 from .poses import Poses
 from .shell_poses import ShellPoses
@@ -24,6 +25,8 @@ def as_poses(
     """
     if isinstance(poses, (Poses, ShellPoses)):
         return poses
+    cure = "give Poses, ShellPoses or a list of meshes"
+    require_type("InterpolationProblem", "poses", poses, Sequence, cure)
     for place, mesh in enumerate(poses):
         if not isinstance(mesh, (TetMesh, ShellMesh)):
             raise ValueError(

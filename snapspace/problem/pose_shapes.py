@@ -7,10 +7,20 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import require_type
 from ..counted import counted
 from .names import check_names
 
 FloatArray = NDArray[np.float64]
+
+
+def check_meshes(meshes: object, kind: type, *, who: str) -> None:
+    """ValueError unless it is a list of meshes of this kind."""
+    cure = f"give a list of {kind.__name__}"
+    require_type(who, "meshes", meshes, Sequence, cure)
+    assert isinstance(meshes, Sequence)
+    for place, mesh in enumerate(meshes):
+        require_type(who, f"mesh {place}", mesh, kind, cure)
 
 
 class PoseShapes:

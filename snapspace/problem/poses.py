@@ -11,7 +11,7 @@ from ..input_error import InputError, fault_of
 from ..mesh import TetMesh, tet_volumes
 from ..mesh.correspondence import check_same_tets
 from ..mesh.quality import flat_tets
-from .pose_shapes import PoseShapes, as_names, check_pose_count
+from .pose_shapes import PoseShapes, as_names, check_meshes, check_pose_count
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int32]
@@ -67,6 +67,7 @@ class Poses(PoseShapes):
         accept_inverted: bool = False,
     ) -> Poses:
         """Poses from meshes with the same tets; ValueError names the first difference."""
+        check_meshes(meshes, TetMesh, who="Poses")
         check_pose_count(len(meshes), who="Poses")
         names = as_names(names, len(meshes), who="Poses")
         try:

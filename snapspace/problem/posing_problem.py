@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property, partial
@@ -14,15 +13,15 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from .. import _core as core
-from ..arguments import is_number, wrong_type
+from ..arguments import as_arrays, as_numbers, as_rows
 from ..energy import ElasticEnergy, ShellMaterial
 from ..input_error import located
 from ..interruptible import run_abandonable
 from ..material import Material, checked_material, default_material
-from ..mesh import Body, ShellMesh, mass_matrix
+from ..mesh import Body, ShellMesh, as_shape, mass_matrix
 from .handle_box import HandleBox
 from .handle_response import HandleResponse
-from .handle_stiffness import usual_stiffness
+from .handle_stiffness import checked_stiffness, usual_stiffness
 from .handles import Handles
 from .held import check_held
 from .motion import rigid_offset
@@ -81,12 +80,8 @@ class PosingProblem:
         self.material = checked_material(material, len(mesh.cells), "PosingProblem")
         if stiffness is None:
             stiffness = usual_stiffness(mesh, self.material)
-        if not is_number(stiffness):
-            raise wrong_type("PosingProblem", "stiffness", stiffness, "give a positive number")
-        self.stiffness = float(stiffness)
+        self.stiffness = checked_stiffness(stiffness)
         self.domain = replace(domain, moving=len(handles) - 1)
-        if not (math.isfinite(self.stiffness) and self.stiffness > 0):
-            raise ValueError(f"PosingProblem: stiffness is {stiffness}, but it must be positive")
         with located("PosingProblem"):
             for handle in handles:
                 handle.check_in(len(mesh.vertices))
@@ -114,6 +109,7 @@ class PosingProblem:
         ValueError
             As for the constructor.
         """
+        check_posing_types(self.mesh, handles, self.domain if domain is None else domain)
         other = PosingProblem(
             self.mesh,
             handles,
@@ -222,10 +218,12 @@ class PosingProblem:
 
     def offsets(self, parameters: ArrayLike) -> FloatArray:
         """Offsets [R - I | t] of all handles, (h, 3, 4), for one parameter vector (p,)."""
-        return np.asarray(self.offsets_of_all(np.asarray(parameters, np.float64)[None])[0])
+        self.check(parameters)
+        return np.asarray(self.offsets_of_all(np.asarray(parameters)[None])[0])
 
     def offsets_of_all(self, parameters: FloatArray) -> FloatArray:
         """Offsets of all handles, (k, h, 3, 4), for samples (k, p)."""
+        parameters = as_rows("PosingProblem", "parameters", parameters)
         for w in parameters:
             self.check(w)
         motions = np.pad(parameters.reshape(len(parameters), -1, 6), ((0, 0), (1, 0), (0, 0)))
@@ -233,13 +231,15 @@ class PosingProblem:
 
     def target_displacements(self, offsets: FloatArray) -> FloatArray:
         """Displacements (..., p, 3) that offsets (..., h, 3, 4) ask of the pinned vertices."""
+        offsets = as_arrays("PosingProblem", "offsets", offsets, len(self.handles), 3, 4)
         turns, shifts = offsets[..., :3].swapaxes(-1, -2), offsets[..., None, :, 3]
         parts = [x @ turns[..., h, :, :] + shifts[..., h, :, :] for h, x in enumerate(self._arms)]
         return np.concatenate(parts, axis=-2)
 
-    def check(self, parameters: FloatArray) -> None:
+    def check(self, parameters: ArrayLike) -> None:
         """ValueError for parameters (p,) of another size or not finite; they may leave the box."""
         moving = self.handles.names[1:]
+        parameters = as_numbers("PosingProblem", "parameters", parameters)
         if parameters.shape != (self.parameter_count,):
             raise ValueError(
                 f"PosingProblem: parameters have shape {parameters.shape}, but {len(moving)} "
@@ -282,7 +282,8 @@ class PosingProblem:
 
     def _misses(self, x: ArrayLike, offsets: FloatArray) -> FloatArray:
         """Vectors to the pinned vertices from where the offsets want them, (p, 3)."""
-        moved = np.asarray(x, np.float64).reshape(-1, 3)[self.pinned]
+        shape = as_shape(x, self.base.size, who="PosingProblem")
+        moved = shape.reshape(-1, 3)[self.pinned]
         wanted = self.mesh.vertices[self.pinned] + self.target_displacements(offsets)
         return np.asarray(moved - wanted)
 

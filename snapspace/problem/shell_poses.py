@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..input_error import InputError, fault_of
 from ..mesh import ShellMesh
 from ..mesh.correspondence import check_same_faces
-from .pose_shapes import PoseShapes, as_names, check_pose_count
+from .pose_shapes import PoseShapes, as_names, check_meshes, check_pose_count
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int32]
@@ -68,6 +68,7 @@ class ShellPoses(PoseShapes):
 
         ValueError names the first difference.
         """
+        check_meshes(meshes, ShellMesh, who="ShellPoses")
         check_pose_count(len(meshes), who="ShellPoses")
         names = as_names(names, len(meshes), who="ShellPoses")
         try:

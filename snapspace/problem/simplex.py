@@ -9,6 +9,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import as_arrays, is_finite, require_count, shown
 from ..sampling import sobol_points
 from .blends import blend_weights
 
@@ -47,13 +48,14 @@ class Simplex:
     extrapolation: float = 0.0
 
     def __post_init__(self) -> None:
-        if self.corners < 2:
+        if require_count("Simplex", "corners", self.corners) < 2:
             raise ValueError(
                 f"Simplex: corners is {self.corners}, but weights need two poses or more"
             )
-        if not (math.isfinite(self.extrapolation) and self.extrapolation >= 0):
+        if not (is_finite(self.extrapolation) and self.extrapolation >= 0):
             raise ValueError(
-                f"Simplex: extrapolation is {self.extrapolation}, but it must be zero or positive"
+                f"Simplex: extrapolation is {shown(self.extrapolation)}, but it must be zero or "
+                "positive"
             )
 
     @property
@@ -85,6 +87,7 @@ class Simplex:
         Variate Generation); each is the inverse distribution function of its coordinate. Rows sum
         to one up to rounding.
         """
+        points = np.atleast_2d(as_arrays("Simplex", "points", points, self.dimension))
         kept = (1.0 - points) ** (1.0 / np.arange(self.dimension, 0, -1))
         left = np.cumprod(kept, axis=1)
         before = np.concatenate([np.ones((len(points), 1)), left[:, :-1]], axis=1)
@@ -100,6 +103,7 @@ class Simplex:
         k = C(N + corners - 1, corners - 1) <= count (at least 1). Ordered by the first weight,
         then by the second, and so on, each increasing.
         """
+        require_count("Simplex", "count", count)
         level = 0
         while math.comb(level + self.corners, self.dimension) <= count:
             level += 1
@@ -127,6 +131,7 @@ class Simplex:
         scramble : bool, default True
             Without it corners come in their own order, and the Sobol sequence is the plain one.
         """
+        require_count("Simplex", "count", count, at_least=1)
         inside = self.from_unit(sobol_points(self.dimension, count, seed=seed, scramble=scramble))
         order = np.arange(self.corners)
         if scramble:

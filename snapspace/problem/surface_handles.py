@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh import Body, EmbeddedSurface
+from ..arguments import require_type
+from ..mesh import Body, EmbeddedSurface, check_body
 from ..mesh.closest_corners import closest_corners
 from .handles import Handles
 
@@ -40,8 +41,8 @@ def handles_in_tets(handles: Handles, mesh: Body, surface: EmbeddedSurface) -> H
     Raises
     ------
     ValueError
-        For an index out of range, a mask of another length than the surface's vertices, or a
-        handle too small for the tets.
+        For arguments of other types, an index out of range, a mask of another length than the
+        surface's vertices, or a handle too small for the tets.
 
     Examples
     --------
@@ -50,6 +51,11 @@ def handles_in_tets(handles: Handles, mesh: Body, surface: EmbeddedSurface) -> H
     >>> on_surface = Handles([low, high], names=["foot", "head"])
     >>> problem = PosingProblem(mesh, handles_in_tets(on_surface, mesh, surface), domain=box)
     """
+    who = "handles_in_tets"
+    require_type(who, "handles", handles, Handles, "give Handles of the surface's vertices")
+    check_body(mesh, who)
+    cure = "give that of embed_surface or boundary_surface"
+    require_type(who, "surface", surface, EmbeddedSurface, cure)
     return SurfaceHandles(mesh, surface).in_tets(handles)
 
 

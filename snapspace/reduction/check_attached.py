@@ -6,7 +6,7 @@ import numpy as np
 
 from ..arguments import wrong_type
 from ..problem import InterpolationProblem, PosingProblem
-from ..subspace import AffineSubspace
+from ..subspace import AffineSubspace, check_subspace
 
 
 def check_attached(
@@ -15,8 +15,7 @@ def check_attached(
     """ValueError of `who` unless these are a problem and a subspace through its tau."""
     if not isinstance(problem, (PosingProblem, InterpolationProblem)):
         raise wrong_type(who, "problem", problem, "give the problem first, then the subspace")
-    if not isinstance(subspace, AffineSubspace):
-        raise wrong_type(who, "subspace", subspace, "give that of snapshot_pca or affine_subspace")
+    check_subspace(subspace, who)
     if subspace.tau.shape != problem.base.shape or not np.array_equal(subspace.tau, problem.tau):
         raise ValueError(
             f"{who}: the subspace is not attached to the problem's reference shape: the rest shape "

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import as_coordinates, as_numbers, require_dimension
 from ..blas import single_threaded_blas
 from ..problem import PosingProblem
 from ..subspace import AffineSubspace
@@ -31,18 +32,22 @@ class HandleQuadric:
     L: FloatArray
     S: FloatArray
 
-    def value(self, q: FloatArray, offsets: FloatArray) -> float:
-        """Handle energy at coordinates (d,) for offsets (h, 3, 4)."""
+    def value(self, q: ArrayLike, offsets: ArrayLike) -> float:
+        """Handle energy at coordinates (d,) for offsets (h, 3, 4); ValueError otherwise."""
+        q = as_coordinates("HandleQuadric", q, len(self.K))
+        offsets = as_numbers("HandleQuadric", "offsets", offsets)
+        if offsets.shape != (len(self.L), 3, 4):
+            raise ValueError(
+                f"HandleQuadric: offsets have shape {offsets.shape}, but must be "
+                f"({len(self.L)}, 3, 4), as PosingProblem.offsets has them"
+            )
         linear = np.einsum("hik,hk->i", self.L, offsets.reshape(len(offsets), 12))
         constant = np.einsum("hra,hab,hrb->", offsets, self.S, offsets)
         return float(q @ self.K @ q - 2.0 * linear @ q + constant)
 
     def leading(self, dimension: int) -> HandleQuadric:
         """The form on the first coordinates; ValueError unless there are that many."""
-        if not 1 <= dimension <= len(self.K):
-            raise ValueError(
-                f"HandleQuadric: dimension {dimension} is not between 1 and {len(self.K)}"
-            )
+        require_dimension("HandleQuadric", dimension, len(self.K))
         K = np.ascontiguousarray(self.K[:dimension, :dimension])
         return HandleQuadric(K, np.ascontiguousarray(self.L[:, :dimension]), self.S)
 

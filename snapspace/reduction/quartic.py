@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
+from ..arguments import as_coordinates, as_numbers, require_count
 from ..energy import ElasticEnergy
 from ..interruptible import run_abandonable
 from ..problem import InterpolationProblem
@@ -34,6 +35,8 @@ class Quartic:
     """
 
     def __init__(self, dimension: int, coefficients: FloatArray) -> None:
+        dimension = require_count("Quartic", "dimension", dimension, at_least=0)
+        coefficients = as_numbers("Quartic", "coefficients", coefficients)
         if coefficients.shape != (coefficient_count(dimension),):
             raise ValueError(
                 f"Quartic: dimension {dimension} needs {coefficient_count(dimension)} "
@@ -57,7 +60,9 @@ class Quartic:
 
     def value_and_gradient(self, q: ArrayLike) -> tuple[float, FloatArray]:
         """Energy at q and its gradient (d,): U^T of the full gradient at tau + U q."""
-        value, gradient = self._core.value_and_gradient(np.asarray(q, np.float64))
+        value, gradient = self._core.value_and_gradient(
+            as_coordinates("Quartic", q, self.dimension)
+        )
         return value, gradient
 
     def hessian(self, q: ArrayLike) -> FloatArray:
@@ -66,11 +71,14 @@ class Quartic:
 
     def derivatives(self, q: ArrayLike) -> tuple[float, FloatArray, FloatArray]:
         """Energy at q, its gradient (d,) and Hessian (d, d), in one pass over the coefficients."""
-        value, gradient, hessian = self._core.derivatives(np.asarray(q, np.float64))
+        value, gradient, hessian = self._core.derivatives(
+            as_coordinates("Quartic", q, self.dimension)
+        )
         return value, gradient, hessian
 
     def leading(self, dimension: int) -> Quartic:
-        """The polynomial on the first coordinates."""
+        """The polynomial on the first coordinates; ValueError unless there are that many."""
+        dimension = require_count("Quartic", "dimension", dimension, at_least=0)
         return Quartic(dimension, self.coefficients[: coefficient_count(dimension)])
 
 
@@ -99,7 +107,13 @@ class PoseQuartics:
 
     def at(self, weights: ArrayLike) -> Quartic:
         """The blended energy for weights (poses,)."""
-        return Quartic(self.dimension, np.asarray(weights, np.float64) @ self.coefficients)
+        w = as_numbers("InterpolationModel", "weights", weights)
+        if w.shape != (len(self.coefficients),):
+            raise ValueError(
+                f"InterpolationModel: weights have shape {w.shape}, but must be "
+                f"({len(self.coefficients)},), one per pose"
+            )
+        return Quartic(self.dimension, w @ self.coefficients)
 
     def leading(self, dimension: int) -> PoseQuartics:
         """The polynomials on the first coordinates."""

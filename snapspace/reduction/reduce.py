@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, overload
 
+from ..arguments import require_count
 from ..cubature import BlendedSum, Cubature, train_blended_cubature, train_cubature
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem, is_quartic
@@ -136,6 +137,9 @@ def reduce(
         If an exact energy takes more than a minute, see `exact_seconds`.
     """
     checked_threads(threads, "reduce")
+    require_count("reduce", "seed", seed, at_least=0)
+    if tets is not None:
+        require_count("reduce", "tets", tets)
     check_attached(problem, subspace, who="reduce")
     check_orthonormal(subspace, who="reduce")
     shown = surface_in(problem.mesh, surface, who="reduce")

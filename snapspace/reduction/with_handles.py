@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..problem import PosingProblem
+from ..problem import PosingProblem, require_posing_problem
 from .check_model import check_model
 from .handle_quadric import handle_quadric
 from .posing_model import PosingModel
@@ -34,9 +34,11 @@ def with_handles(model: PosingModel, problem: PosingProblem) -> PosingModel:
     Raises
     ------
     ValueError
-        For another mesh or material.
+        For another mesh or material, or for a model or problem without handles.
     """
     check_model(model, "with_handles")
+    require_posing_problem(model.problem, "with_handles")
+    require_posing_problem(problem, "with_handles")
     old = model.problem
     for what, own, other in (
         ("mesh", old.mesh.fingerprint, problem.mesh.fingerprint),

@@ -9,8 +9,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 from scipy.spatial.transform import Rotation
 
+from ..arguments import as_numbers
 from ..blas import single_threaded_blas
-from ..mesh import shape_or_rows
+from ..mesh import check_mass, shape_or_rows
 
 FloatArray = NDArray[np.float64]
 
@@ -34,7 +35,7 @@ class RigidMotion:
     @single_threaded_blas
     def apply(self, shape: ArrayLike) -> FloatArray:
         """The moved shape, for a shape vector (3n,) or points (n, 3); ValueError otherwise."""
-        x = np.ascontiguousarray(shape, np.float64)
+        x = np.ascontiguousarray(as_numbers("RigidMotion", "shape", shape))
         if not ((x.ndim == 1 and x.size % 3 == 0) or (x.ndim == 2 and x.shape[1] == 3)):
             raise ValueError(f"RigidMotion: a shape must be (3n,) or (n, 3), got {x.shape}")
         points: FloatArray = self.scale * (x.reshape(-1, 3) @ self.rotation.T) + self.translation
@@ -124,6 +125,7 @@ class _Target:
     """A shape that others are registered onto, with values that every registration needs."""
 
     def __init__(self, onto: ArrayLike, mass: csr_array, *, who: str) -> None:
+        check_mass(mass, who=who)
         self._who = who
         self._mass = mass
         row_sums = np.asarray(mass.sum(axis=1), np.float64)
@@ -137,7 +139,7 @@ class _Target:
     def points_of(self, shape: ArrayLike, what: str) -> FloatArray:
         """A shape vector as (n, 3) points; ValueError unless it fits M and is finite."""
         # contiguous: BLAS rounds strided vectors differently
-        x = np.ascontiguousarray(shape, np.float64)
+        x = np.ascontiguousarray(as_numbers(self._who, what, shape))
         n = self._mass.shape[0]
         if x.shape != (3 * n,):
             raise ValueError(

@@ -8,6 +8,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import as_numbers
+
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.integer]
 ScalePolicy = Literal["auto", "match", "keep"]
@@ -43,7 +45,7 @@ def scale_factors(shapes: ArrayLike, cells: ArrayLike) -> FloatArray:
         For wrong array shapes, coordinates that are not finite, an index out of range, or a pose
         in which half of the edges have no length.
     """
-    poses = np.asarray(shapes, np.float64)
+    poses = as_numbers("scale_factors", "shapes", shapes)
     if poses.ndim != 3 or poses.shape[2] != 3 or not len(poses):
         raise ValueError(f"scale_factors: shapes must be (k, n, 3), got {poses.shape}")
     if not np.isfinite(poses).all():
@@ -92,7 +94,7 @@ def matched_scales(
         raise ValueError(
             f"matched_scales: unknown policy '{policy}'; known are {', '.join(SCALE_POLICIES)}"
         )
-    poses = np.asarray(shapes, np.float64)
+    poses = as_numbers("matched_scales", "shapes", shapes)
     if policy == "keep":
         return poses.copy(), np.ones(len(poses))
     factors = scale_factors(poses, cells)

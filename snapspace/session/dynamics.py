@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
+from ..arguments import is_finite, shown
 from .finite_input import finite
 
 
@@ -31,8 +30,10 @@ class Dynamics:
     gravity: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        if not (np.isfinite(self.frequency) and self.frequency > 0.0):
-            raise ValueError(f"Dynamics: frequency {self.frequency} must be positive, in Hz")
-        if not (np.isfinite(self.damping) and self.damping >= 0.0):
-            raise ValueError(f"Dynamics: damping {self.damping} must be finite and not negative")
+        if not (is_finite(self.frequency) and self.frequency > 0.0):
+            raise ValueError(f"Dynamics: frequency {shown(self.frequency)} must be positive, in Hz")
+        if not (is_finite(self.damping) and self.damping >= 0.0):
+            raise ValueError(
+                f"Dynamics: damping {shown(self.damping)} must be finite and not negative"
+            )
         finite(self.gravity, (3,), "Dynamics: gravity")

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import as_numbers
+
 
 def given_coordinates(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
     """The coordinates as an array.
@@ -20,7 +22,7 @@ def given_coordinates(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
     ValueError
         For a wrong number of coordinates, or one that is not finite.
     """
-    values = np.asarray(q, np.float64)
+    values = as_numbers("put", "q", q)
     if values.ndim != 1 or not 1 <= len(values) <= dimension:
         raise ValueError(
             f"put: q has shape {values.shape}, but the model has {dimension} coordinates; give all "

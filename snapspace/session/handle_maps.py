@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import require_type
 from ..problem import affine_offset
 from .finite_input import finite
 from .given_rotation import Turn, given_turn, is_rotation
@@ -68,6 +69,8 @@ def given_maps(
 
     ValueError for a wrong number of motions, or one that is not a pair, finite or rigid.
     """
+    cure = "give a pair (rotation, translation) for each handle"
+    require_type("put", "motions", motions, Sequence, cure)
     if len(motions) != len(names):
         raise ValueError(f"put: got {len(motions)} motions, but there are {len(names)} handles")
     maps = {}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..arguments import require_type
 from ..mesh import MirrorPlane
 from ..symmetry import counterparts, plane_of
 from .frame_report import FrameReport
@@ -23,14 +24,17 @@ def mirror_pose(session: PosingSession, *, plane: MirrorPlane | None = None) -> 
     Raises
     ------
     ValueError
-        If a handle has no counterpart (`counterparts`), if a handle is at an affine map that is not
-        rigid, and as for `mirror_plane`. The handles stay where they are.
+        For another kind of session or plane, if a handle has no counterpart (`counterparts`), if a
+        handle is at an affine map that is not rigid, and as for `mirror_plane`. The handles stay
+        where they are.
 
     Examples
     --------
     >>> session.move("left ear", euler=(0, 0, 0.5))
     >>> mirror_pose(session)  # the right ear turns by -0.5
     """
+    cure = "give model.session() of a posing model"
+    require_type("mirror_pose", "session", session, PosingSession, cure)
     problem = session.model.problem
     plane = plane_of(session.model) if plane is None else plane
     others = counterparts(problem, plane)

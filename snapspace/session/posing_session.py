@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import require_type
 from ..reduction import PosingModel
 from ..timeline import Timeline
 from .display_shapes import Vertices
@@ -78,6 +79,7 @@ class PosingSession(Session[PosingModel]):
         """
         if rotation is not None and euler is not None:
             raise ValueError(f"move: '{handle}' has both euler and rotation; give one of them")
+        require_type("move", "handle", handle, str, "give the name of a handle")
         turn: Turn = (0.0, 0.0, 0.0) if euler is None else euler
         if rotation is not None:
             turn = given_rotation(rotation, f"move: rotation of '{handle}'")

@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import as_rows
 from ..blas import single_threaded_blas
-from ..reduction import InterpolationModel, PosingModel, reduced_solutions, solved_sessions
+from ..reduction import (
+    InterpolationModel,
+    PosingModel,
+    check_model,
+    reduced_solutions,
+    solved_sessions,
+)
 from ..snapshots import Predictions, positive_inverse
 
 FloatArray = NDArray[np.float64]
@@ -24,7 +31,7 @@ TOLERANCE = 1e-7
 @single_threaded_blas
 def predicted_solutions(
     model: PosingModel | InterpolationModel,
-    parameters: FloatArray,
+    parameters: ArrayLike,
     *,
     hessians: bool | None = None,
 ) -> Predictions:
@@ -40,7 +47,14 @@ def predicted_solutions(
     hessians : bool, optional
         Whether to predict Hessians as well. They pay for motions that take more than 110
         evaluations. Default: yes, except for blends, which gain nothing by them.
+
+    Raises
+    ------
+    ValueError
+        For something else than a model, or parameters of another shape.
     """
+    check_model(model, "predicted_solutions")
+    parameters = as_rows("predicted_solutions", "parameters", parameters)
     if hessians is None:
         hessians = model.problem.solving.seeded_hessians
     if not hessians:

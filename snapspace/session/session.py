@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import is_number, is_whole, require_type, shown, wrong_type
 from ..certificate import Certificate, ResidualProbe, ResidualSample, residual_probe
 from .certify import certify
 from .display_shapes import DisplayShapes, Vertices
@@ -93,6 +94,8 @@ class Session(TimeSteps[Model], NotPickled, ABC):
 
     @dimension.setter
     def dimension(self, dimension: int) -> None:
+        if not is_whole(dimension):
+            raise wrong_type("Session", "dimension", dimension, "give a whole number")
         if not 1 <= dimension <= self.model.dimension:
             raise ValueError(
                 f"Session: dimension {dimension} is not between 1 and the model's, "
@@ -170,7 +173,8 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         Raises
         ------
         ValueError
-            For a negative number of iterations or a tolerance that is not positive.
+            For a number of iterations that is not a whole number from 0 on, a tolerance that is
+            not positive, or a `should_stop` that is no function.
         KeyboardInterrupt
             On Ctrl-C, within the time of one iteration.
 
@@ -180,6 +184,13 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         call computes the scalar factor, 0.1 to 0.3 s there, unless the problem has solved samples.
         """
         tolerance = self.model.problem.solving.tolerance if tolerance is None else tolerance
+        if not (is_whole(iterations) and is_number(tolerance)):
+            raise ValueError(
+                f"polish: iterations is {shown(iterations)} and tolerance {shown(tolerance)}, but "
+                "must be a whole number and a number"
+            )
+        cure = "give a function without arguments, or None"
+        require_type("polish", "should_stop", should_stop, Callable | None, cure)
         if iterations < 0 or not tolerance > 0:
             raise ValueError(
                 f"polish: iterations {iterations} must not be negative, and tolerance {tolerance} "
@@ -214,8 +225,9 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         Raises
         ------
         ValueError
-            If the model is not calibrated, or was calibrated for another dimension, or if the
-            confidence needs more samples than it was calibrated with; the message names the cure.
+            If the confidence is not between 0 and 1, if the model is not calibrated, or was
+            calibrated for another dimension, or if the confidence needs more samples than it was
+            calibrated with; the message names the cure.
         """
         return certify(self, confidence=confidence, thorough=thorough)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .. import _core as core
-from ..arguments import is_number, is_whole, wrong_type
+from ..arguments import is_number, is_whole, shown, wrong_type
 
 MINIMIZERS = {"newton": core.Method.newton, "bfgs": core.Method.bfgs}
 PRECISIONS = ("double", "single")
@@ -23,11 +23,11 @@ def check_options(
             f"Session: tolerance {tolerance}, max_iterations {max_iterations} and "
             f"max_evaluations {max_evaluations} must be positive, the last two below 2^31"
         )
-    if minimizer not in MINIMIZERS:
+    if minimizer not in tuple(MINIMIZERS):
         raise ValueError(
-            f"Session: unknown minimizer '{minimizer}'; known are {', '.join(MINIMIZERS)}"
+            f"Session: unknown minimizer {shown(minimizer)}; known are {', '.join(MINIMIZERS)}"
         )
     if precision not in PRECISIONS:
         raise ValueError(
-            f"Session: unknown precision '{precision}'; known are {', '.join(PRECISIONS)}"
+            f"Session: unknown precision {shown(precision)}; known are {', '.join(PRECISIONS)}"
         )

@@ -12,6 +12,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import is_finite, shown
 from ..reduction import InterpolationModel, PosingModel
 from ..subspace import RigidFrames
 from .dynamics import Dynamics
@@ -129,8 +130,8 @@ class TimeSteps(ABC, Generic[Model]):
         >>> for _ in range(120):
         ...     session.step(1 / 60)
         """
-        if not (np.isfinite(dt) and dt > 0.0):
-            raise ValueError(f"step: dt {dt} must be positive and finite, in seconds")
+        if not (is_finite(dt) and dt > 0.0):
+            raise ValueError(f"step: dt {shown(dt)} must be positive and finite, in seconds")
         if not hasattr(self._loop, "step"):
             raise ValueError(
                 "step: the model has the energy of all tets; reduce with energy='cubature' or "

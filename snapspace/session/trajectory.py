@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from ..arguments import require_count, require_type
 from ..timeline import Timeline
 
 FloatArray = NDArray[np.float64]
@@ -29,7 +30,7 @@ def path_shares(frames: int, keys: int, easing: str) -> Iterator[tuple[int, floa
 
 def checked_frames(frames: int) -> int:
     """`frames`; ValueError for fewer than two."""
-    if frames < 2:
+    if require_count("animate", "frames", frames) < 2:
         raise ValueError(
             f"animate: frames is {frames}, but at least two are needed, the first and the last"
         )
@@ -45,6 +46,8 @@ def keyed(
     session is, in 60 frames. ValueError as for `path_shares`, and for a timeline of another kind.
     """
     if not isinstance(keys, Timeline):
+        cure = "give a list of states, such as [{handle: motion}] or [weights], or a Timeline"
+        require_type("animate", "keys", keys, Iterable, cure)
         states = list(keys)
         return (
             states,

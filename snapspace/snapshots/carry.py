@@ -11,9 +11,9 @@ from scipy.sparse import csr_array, diags_array
 
 from ..blas import single_threaded_blas
 from ..displacements import DisplacementRows
-from ..problem import PosingProblem, Problem, euler_of_rotation, rotation_matrix
+from ..problem import PosingProblem, Problem, euler_of_rotation, require_problem, rotation_matrix
 from ..registration import RigidMotion, rigid_registration
-from .snapshots import SampleReport, Snapshots
+from .snapshots import SampleReport, Snapshots, check_snapshots
 
 FloatArray = NDArray[np.float64]
 
@@ -154,6 +154,8 @@ def _same_objective(old: PosingProblem, new: PosingProblem) -> bool:
 
 
 def _checked(snapshots: Snapshots, problem: PosingProblem) -> PosingProblem:
+    check_snapshots(snapshots, "carry_over")
+    require_problem(problem, "carry_over")
     old = snapshots.problem
     for what, one in (("the problem of the snapshots", old), ("the problem", problem)):
         if not isinstance(one, PosingProblem):

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core as core
+from ..arguments import require_type
 from ..interruptible import run_abandonable
 from ..problem import Problem
 
@@ -48,6 +49,14 @@ class Predictions:
     inverses: FloatArray | None = None
 
     def __post_init__(self) -> None:
+        for name in ("displacements", "basis", "inverses"):
+            kinds, cure = np.ndarray | None, "give an array"
+            require_type("Predictions", name, getattr(self, name), kinds, cure)
+        if np.ndim(self.displacements) != 2:
+            raise ValueError(
+                f"Predictions: displacements have shape {np.shape(self.displacements)}, but must "
+                "be (k, 3n), one sample per row"
+            )
         count, size = self.displacements.shape
         basis, inverses = self.basis, self.inverses
         if basis is None and inverses is None:

@@ -8,10 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..arguments import wrong_type
+from ..arguments import require_type, wrong_type
 from ..displacements import DisplacementRows, SnapshotGram, chosen_rows
 from ..mesh import TetMesh, shape_rows
-from ..problem import PosingProblem, Problem
+from ..problem import PosingProblem, Problem, require_problem
+from ..thread_count import checked_threads
 
 FloatArray = NDArray[np.float64]
 
@@ -70,6 +71,7 @@ class Snapshots:
     gram: SnapshotGram | None = None
 
     def __post_init__(self) -> None:
+        require_problem(self.problem, "Snapshots")
         if not isinstance(self.displacements, DisplacementRows):
             raise ValueError(
                 f"Snapshots: displacements are a {type(self.displacements).__name__}, but must be "
@@ -80,6 +82,9 @@ class Snapshots:
                 f"Snapshots: displacements have {self.displacements.size} coordinates, but the "
                 f"problem's shapes have {self.problem.base.size}"
             )
+        cure = "give an array (k, p), one row per sample"
+        require_type("Snapshots", "parameters", self.parameters, np.ndarray, cure)
+        require_type("Snapshots", "reports", self.reports, Sequence, "give a list of SampleReport")
         counts = len(self.parameters), len(self.displacements), len(self.reports)
         if len(set(counts)) > 1:
             raise ValueError(
@@ -99,6 +104,7 @@ class Snapshots:
 
         Raises ValueError for shapes in another layout, and as `Snapshots`.
         """
+        require_problem(problem, "Snapshots.from_shapes")
         size = problem.base.size
         rows = shape_rows(shapes, size, who="Snapshots.from_shapes")
         displacements = np.subtract(rows, problem.base, order="C")
@@ -138,7 +144,7 @@ class Snapshots:
         if self.gram is not None:
             return self
         gram = SnapshotGram.of(self.problem)
-        gram.add(self.displacements, threads=threads or 0)
+        gram.add(self.displacements, threads=checked_threads(threads, "Snapshots.with_gram"))
         return replace(self, gram=gram)
 
     def select(self, which: ArrayLike) -> Snapshots:
@@ -171,8 +177,9 @@ class Snapshots:
         Raises
         ------
         ValueError
-            If the others are of another problem.
+            If the others are no snapshots, or of another problem.
         """
+        check_snapshots(others, "Snapshots.joined", "others")
         if others.problem.fingerprint != self.problem.fingerprint:
             raise ValueError(
                 f"Snapshots.joined: the others are of another problem, {others.problem!r} instead "

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import Executor
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..arguments import wrong_type
-from ..problem import Problem
+from ..arguments import as_numbers, require_type, wrong_type
+from ..problem import Problem, require_problem
 from ..thread_count import checked_threads
 from .checkpoint import Checkpoint
 from .predictions import Predictions
@@ -70,26 +71,31 @@ def solve_snapshots(
     Raises
     ------
     ValueError
-        For a problem or options of another type, parameters of the wrong shape or not finite,
+        For an argument of another type, parameters of the wrong shape or not finite,
         threads out of range, a checkpoint of another run, known snapshots of another problem,
         predictions for other samples or another mesh, or an executor that has lost its workers;
         then finished samples are in the checkpoint.
     Interrupted
         On Ctrl-C, after the finished samples were saved.
     """
-    if not hasattr(problem, "parameter_count"):  # any class may be a problem
-        cure = "give a PosingProblem or InterpolationProblem first, then the parameters"
-        raise wrong_type("solve_snapshots", "problem", problem, cure)
-    if not isinstance(options, SolverOptions | None):
-        cure = "give SolverOptions(tolerance=..., ...)"
-        raise wrong_type("solve_snapshots", "options", options, cure)
+    who = "solve_snapshots"
+    cure = "give a PosingProblem or InterpolationProblem first, then the parameters"
+    require_problem(problem, who, cure=cure)
+    cure = "give SolverOptions(tolerance=..., ...)"
+    require_type(who, "options", options, SolverOptions | None, cure)
+    require_type(who, "checkpoint", checkpoint, Checkpoint | None, "give Checkpoint(folder)")
+    require_type(who, "progress", progress, Callable | None, "give a function, or None")
+    cure = "give Predictions, such as those of predicted_solutions"
+    require_type(who, "predictions", predictions, Predictions | None, cure)
+    if executor is not None and not hasattr(executor, "submit"):
+        raise wrong_type(who, "executor", executor, "give a concurrent.futures.Executor, or None")
     samples = _checked(problem, parameters)
     if known is not None:
-        check_snapshots_of(problem, known, "solve_snapshots", "known")
+        check_snapshots_of(problem, known, who, "known")
     wanted = (len(samples), problem.base.size)
     if predictions is not None and predictions.displacements.shape != wanted:
         raise ValueError(
-            f"solve_snapshots: predictions are for {predictions.displacements.shape} samples and "
+            f"{who}: predictions are for {predictions.displacements.shape} samples and "
             f"coordinates, but these are {wanted}"
         )
     run = Run(
@@ -100,7 +106,7 @@ def solve_snapshots(
         checkpoint=checkpoint,
         known=known,
         predictions=predictions,
-        threads=checked_threads(threads, "solve_snapshots"),
+        threads=checked_threads(threads, who),
     )
     return run.solve(executor)
 
@@ -111,7 +117,7 @@ def solver_key(options: SolverOptions, problem: Problem) -> dict[str, Any]:
 
 
 def _checked(problem: Problem, parameters: ArrayLike) -> FloatArray:
-    samples = np.ascontiguousarray(parameters, dtype=np.float64)
+    samples = np.ascontiguousarray(as_numbers("solve_snapshots", "parameters", parameters))
     if samples.ndim != 2 or samples.shape[1] != problem.parameter_count or len(samples) == 0:
         raise ValueError(
             f"solve_snapshots: parameters have shape {samples.shape}, but the problem needs "

@@ -100,10 +100,12 @@ class SolverOptions:
                 f"SolverOptions: unknown solver '{self.solver}'; known are {', '.join(SOLVERS)}"
             )
         for name in ("tolerance", "settling", "clamp"):
-            if getattr(self, name) is not None and not is_number(getattr(self, name)):
+            optional = name != "clamp" and getattr(self, name) is None
+            if not optional and not is_number(getattr(self, name)):
                 raise wrong_type("SolverOptions", name, getattr(self, name), "give a number")
         for name in ("max_iterations", "block"):
-            if getattr(self, name) is not None and not is_whole(getattr(self, name)):
+            optional = name == "block" and getattr(self, name) is None
+            if not optional and not is_whole(getattr(self, name)):
                 raise wrong_type("SolverOptions", name, getattr(self, name), "give a whole number")
         if self.tolerance is not None and not (np.isfinite(self.tolerance) and self.tolerance > 0):
             raise ValueError(

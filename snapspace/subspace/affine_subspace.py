@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from .. import _core as core
+from ..arguments import as_numbers, is_whole, require_type, wrong_type
 from ..blas import single_threaded_blas
 from ..displacements import DisplacementRows, shared_mass
 from ..mesh import apply_mass, shape_or_rows
@@ -55,7 +56,10 @@ class AffineSubspace:
         return float(self.snapshot_energies[: self.dimension].sum() / self.snapshot_energies.sum())
 
     def leading(self, dimension: int) -> AffineSubspace:
-        """The subspace of the first columns; for a PCA the best one of that dimension."""
+        """The subspace of the first columns; for a PCA the best one of that dimension.
+
+        ValueError unless the dimension is a whole number from 1 to that of the subspace.
+        """
         check_dimension(dimension, self.dimension)
         basis = np.asfortranarray(self.basis[:, :dimension])
         return AffineSubspace(self.tau, basis, self.mass, self.snapshot_energies)
@@ -94,20 +98,36 @@ class AffineSubspace:
 
     def row_coordinates(self, displacements: DisplacementRows) -> FloatArray:
         """q = U^T M u, (k, d), of displacements u from tau, without a copy of all of them."""
+        cure = "give snapshots.displacements; coordinates takes shapes (k, 3n)"
+        require_type("row_coordinates", "displacements", displacements, DisplacementRows, cure)
         return displacements.mass_products(shared_mass(self.mass), self._directions)
 
     def shape(self, q: ArrayLike) -> FloatArray:
-        """tau + U q, (3n,), for coordinates (d,), or for the leading ones with the others zero."""
-        coordinates = np.asarray(q, np.float64)
+        """tau + U q, (3n,), for coordinates (d,), or for the leading ones with the others zero.
+
+        ValueError for more coordinates, or an array of another shape.
+        """
+        coordinates = as_numbers("AffineSubspace.shape", "q", q)
+        if coordinates.ndim != 1 or len(coordinates) > self.dimension:
+            raise ValueError(
+                f"AffineSubspace.shape: q has shape {coordinates.shape}, but must be "
+                f"({self.dimension},) or shorter; shapes takes rows (k, {self.dimension})"
+            )
         return core.reconstruct(self.tau, self.basis.T[: len(coordinates)], coordinates)
 
-    def shapes(self, coordinates: FloatArray) -> FloatArray:
+    def shapes(self, coordinates: ArrayLike) -> FloatArray:
         """tau + U q, (k, 3n), for coordinates (k, d).
 
         A shape does not depend on the others, and equals that of `shape` to rounding. The basis is
-        read once, not once for each shape.
+        read once, not once for each shape. ValueError for an array of another shape.
         """
-        shapes = self._directions.combined(coordinates)
+        rows = as_numbers("AffineSubspace.shapes", "coordinates", coordinates)
+        if rows.ndim != 2 or rows.shape[1] != self.dimension:
+            raise ValueError(
+                f"AffineSubspace.shapes: coordinates have shape {rows.shape}, but must be "
+                f"(k, {self.dimension}), one sample per row"
+            )
+        shapes = self._directions.combined(rows)
         shapes += self.tau
         return shapes
 
@@ -119,8 +139,16 @@ class AffineSubspace:
         return DisplacementRows(np.ascontiguousarray(self.basis.T), self.tau.size)
 
 
+def check_subspace(subspace: object, who: str) -> None:
+    """ValueError of `who` for something else than a subspace, such as a basis."""
+    cure = "give that of snapshot_pca or affine_subspace"
+    require_type(who, "subspace", subspace, AffineSubspace, cure)
+
+
 def check_dimension(dimension: int, largest: int) -> None:
-    """ValueError unless the dimension is between 1 and the largest one available."""
+    """ValueError unless the dimension is a whole number from 1 to the largest one available."""
+    if not is_whole(dimension):
+        raise wrong_type("AffineSubspace", "dimension", dimension, "give a whole number")
     if not 1 <= dimension <= largest:
         raise ValueError(
             f"AffineSubspace: dimension {dimension} is not between 1 and {largest}; a larger "

@@ -6,9 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
+from ..arguments import as_numbers, is_number, shown
 from ..blas import single_threaded_blas
 from ..mesh import apply_mass
-from ..problem import Problem
+from ..problem import Problem, require_problem
 from .affine_subspace import AffineSubspace
 
 FloatArray = NDArray[np.float64]
@@ -60,8 +61,9 @@ def affine_subspace(
         For directions of a wrong shape, if all are zero, if one is not finite or, if nested,
         depends on earlier ones, or for an rtol that is not in (0, 1).
     """
-    if not 0 < rtol < 1:
-        raise ValueError(f"affine_subspace: rtol is {rtol}, but it must be between 0 and 1")
+    require_problem(problem, "affine_subspace")
+    if not (is_number(rtol) and 0 < rtol < 1):
+        raise ValueError(f"affine_subspace: rtol is {shown(rtol)}, but it must be between 0 and 1")
     columns = _checked(directions, problem.tau.size)
     mass = problem.mass()
     basis = np.empty((columns.shape[1], problem.tau.size))
@@ -116,10 +118,7 @@ def _normalised(rows: FloatArray, mass: csr_array) -> FloatArray:
 
 def _checked(directions: ArrayLike, size: int) -> FloatArray:
     """A matrix (3n, k) of finite numbers."""
-    try:
-        columns = np.asarray(directions, np.float64)
-    except (TypeError, ValueError):
-        raise ValueError("affine_subspace: directions must be numbers, (3n, k)") from None
+    columns = as_numbers("affine_subspace", "directions", directions)
     if columns.ndim != 2 or columns.shape[0] != size or columns.shape[1] == 0:
         raise ValueError(
             f"affine_subspace: directions have shape {columns.shape}, but must be ({size}, k) with "

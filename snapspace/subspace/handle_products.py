@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import is_finite, shown
 from ..blas import single_threaded_blas
 from ..displacements import DisplacementRows
 from ..problem import PosingProblem
@@ -36,6 +37,8 @@ def handle_products(problem: PosingProblem, displacements: DisplacementRows) -> 
 
 
 def check_handle_weight(weight: float, *, who: str) -> None:
-    """ValueError for a weight that is negative or not finite."""
-    if not (np.isfinite(weight) and weight >= 0):
-        raise ValueError(f"{who}: handle_weight is {weight}, but must be finite and not negative")
+    """ValueError for a weight that is no number, negative or not finite."""
+    if not (is_finite(weight) and weight >= 0):
+        raise ValueError(
+            f"{who}: handle_weight is {shown(weight)}, but must be finite and not negative"
+        )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..problem import PosingProblem
+from ..problem import PosingProblem, require_posing_problem
 
 FloatArray = NDArray[np.float64]
 
@@ -30,7 +30,13 @@ def handle_windows(problem: PosingProblem) -> FloatArray:
         handle, as a share of it, in the linear response of the rest shape. It is nearly one on the
         handle, nearly zero on the others, and rarely outside of [0, 1] by more than 0.01. The first
         row is that of the fixed handle, what the others leave of one.
+
+    Raises
+    ------
+    ValueError
+        For something else than a PosingProblem.
     """
+    require_posing_problem(problem, "handle_windows")
     moving = len(problem.handles) - 1
     length = SMALL * problem.mesh.diagonal
     motions = np.zeros((moving, 3, moving, 6))

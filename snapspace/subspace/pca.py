@@ -9,10 +9,10 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import cholesky, solve_triangular
 from scipy.sparse import csr_array
 
-from ..arguments import is_whole, wrong_type
+from ..arguments import as_numbers, is_number, is_whole, require_type, shown, wrong_type
 from ..blas import single_threaded_blas
 from ..displacements import DisplacementRows, SnapshotGram, orthonormalise
-from ..mesh import mass_norm, shape_rows
+from ..mesh import check_mass, mass_norm, shape_rows
 from ..problem import PosingProblem, solutions_beyond_tau
 from .affine_subspace import AffineSubspace, check_dimension
 from .handle_products import HANDLE_WEIGHT, check_handle_weight, handle_products
@@ -158,7 +158,7 @@ def _usable_products(
 
 def pca(
     shapes: ArrayLike,
-    tau: FloatArray,
+    tau: ArrayLike,
     mass: csr_array,
     *,
     dimension: int | None = None,
@@ -170,7 +170,7 @@ def pca(
     Parameters
     ----------
     shapes : (k, 3n), one shape per row
-    tau : (3n,), shape through which the subspace goes
+    tau : array_like, (3n,), shape through which the subspace goes
     mass : csr_array, (n, n), scalar mass matrix
     dimension, energy_fraction
         As for `snapshot_pca` without handles; result and errors are the same as well.
@@ -180,16 +180,20 @@ def pca(
     Raises
     ------
     ValueError
-        For shapes or a Gram matrix of another shape.
+        For shapes, tau, a mass matrix or a Gram matrix of another shape or type.
     """
     _check_size(dimension, energy_fraction)
+    tau = as_numbers("pca", "tau", tau)
+    check_mass(mass, tau.size, who="pca")
+    if tau.ndim != 1 or not np.isfinite(tau).all():
+        raise ValueError(f"pca: tau has shape {tau.shape}, but must be (3n,), with finite numbers")
     checked = shape_rows(shapes, tau.size, who="pca")
     rows = DisplacementRows(np.subtract(checked, tau, order="C"), tau.size)
     if gram is None:
         products = SnapshotGram(mass)
         products.add(rows)
         gram = products.matrix
-    elif gram.shape != (len(rows), len(rows)):
+    elif (gram := as_numbers("pca", "gram", gram)).shape != (len(rows), len(rows)):
         raise ValueError(
             f"pca: the Gram matrix has shape {gram.shape}, but {len(rows)} shapes need "
             f"({len(rows)}, {len(rows)})"
@@ -248,8 +252,10 @@ def _check_size(dimension: int | None, energy_fraction: float | None) -> None:
         raise ValueError("pca: give either dimension or energy_fraction")
     if dimension is not None and not is_whole(dimension):
         raise wrong_type("pca", "dimension", dimension, "give a whole number")
-    if energy_fraction is not None and not 0 < energy_fraction <= 1:
-        raise ValueError(f"pca: energy_fraction is {energy_fraction}, but must be in (0, 1]")
+    if energy_fraction is not None and not (
+        is_number(energy_fraction) and 0 < energy_fraction <= 1
+    ):
+        raise ValueError(f"pca: energy_fraction is {shown(energy_fraction)}, but must be in (0, 1]")
 
 
 def _rank(eigenvalues: FloatArray, tau: FloatArray, mass: csr_array) -> int:
@@ -270,6 +276,8 @@ def _rank(eigenvalues: FloatArray, tau: FloatArray, mass: csr_array) -> int:
 
 
 def _check_gram(gram: SnapshotGram, mass: csr_array, samples: int) -> None:
+    cure = "give SnapshotGram.of(problem) with all snapshots added"
+    require_type("snapshot_pca", "gram", gram, SnapshotGram, cure)
     if len(gram) != samples:
         raise ValueError(
             f"snapshot_pca: the Gram matrix has {len(gram)} snapshots, but there are {samples}; "

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import as_numbers, require_count, wrong_type
 from ..blas import single_threaded_blas
 from ..displacements import BLOCK, orthonormalise
 from ..problem import PosingProblem
-from .affine_subspace import AffineSubspace
+from .affine_subspace import AffineSubspace, check_subspace
 from .handle_products import HANDLE_WEIGHT, check_handle_weight
 from .handle_windows import handle_windows
 from .principal import descending, scaled
@@ -70,10 +71,13 @@ def widen(
     Raises
     ------
     ValueError
-        If the problem has no handles, if the subspace is of another mesh or has no energies, for
-        windows of another shape or not finite, for a dimension below 1, or for a weight that is
-        negative or not finite.
+        For arguments of other types, if the problem has no handles, if the subspace is of another
+        mesh or has no energies, for windows of another shape or not finite, for a dimension below
+        1, or for a weight that is negative or not finite.
     """
+    check_subspace(subspace, "widen")
+    if not hasattr(snapshots, "usable"):  # this package knows no Snapshots
+        raise wrong_type("widen", "snapshots", snapshots, "give subspace, snapshots")
     problem = snapshots.problem
     if not isinstance(problem, PosingProblem):
         raise ValueError(
@@ -92,8 +96,7 @@ def widen(
             "of snapshot_pca"
         )
     check_handle_weight(handle_weight, who="widen")
-    if dimension < 1:
-        raise ValueError(f"widen: dimension is {dimension}, but must be at least 1")
+    dimension = require_count("widen", "dimension", dimension, at_least=1)
     if windows is None:
         windows = handle_windows(problem)
     parts = _checked(windows, len(problem.mesh.vertices))
@@ -151,7 +154,7 @@ def _shares(rows: FloatArray, dimension: int) -> FloatArray:
 
 def _checked(windows: ArrayLike, vertices: int) -> FloatArray:
     """Windows as an array (r, n); ValueError for another shape or numbers that are not finite."""
-    array = np.asarray(windows, np.float64)
+    array = as_numbers("widen", "windows", windows)
     if array.ndim != 2 or array.shape[1] != vertices or not len(array):
         raise ValueError(
             f"widen: windows have shape {array.shape}, but must be (r, {vertices}): one row per "

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh import MirrorPlane
-from ..problem import PosingProblem
+from ..mesh import MirrorPlane, check_plane
+from ..problem import PosingProblem, require_posing_problem
 from .side_names import mirrored_name
 
 #: Of the diagonal: handles of few vertices may be so far from the mirror image of the other.
@@ -21,7 +21,11 @@ def counterparts(problem: PosingProblem, plane: MirrorPlane) -> tuple[int | None
     has its centroid closest to the mirror image of the other, and no farther than the radius of the
     smaller one (root mean square), plus 1 % of the diagonal. A handle across the plane is its own
     counterpart.
+
+    ValueError for something else than a PosingProblem and a MirrorPlane.
     """
+    require_posing_problem(problem, "counterparts")
+    check_plane(plane, "counterparts")
     centers = problem.centroids
     away = np.linalg.norm(plane.points(centers)[:, None] - centers, axis=2)
     away = (away + away.T) / 2.0  # equal but for rounding

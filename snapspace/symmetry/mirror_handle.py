@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..mesh import MirrorPlane
-from ..problem import HandleBox, Handles, PosingProblem
+from ..mesh import MirrorPlane, check_plane
+from ..problem import HandleBox, Handles, PosingProblem, require_posing_problem
 from .plane_search import mirror_plane
 from .region import mirrored_region
 from .side_names import mirrored_name
@@ -46,10 +46,12 @@ def mirror_handle(
     >>> problem.handles.names
     ('feet', 'left ear', 'right ear')
     """
+    require_posing_problem(problem, "mirror_handle")
     mesh, handles = problem.mesh, problem.handles
-    region = handles[name].vertices
+    region = handles[handles.index(name)].vertices
     if plane is None:
         plane = mirror_plane(mesh.vertices, mesh.surface)
+    check_plane(plane, "mirror_handle")
     other = mirrored_name(name)
     image = checked_image(name, region, mirrored_region(mesh.vertices, mesh.surface, region, plane))
     rows = {handle.name: row for handle, row in zip(handles, _rows(problem.domain), strict=True)}

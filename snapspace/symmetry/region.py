@@ -6,8 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
 
-from ..mesh import MirrorPlane, compact_surface
+from ..mesh import MirrorPlane, check_plane, compact_surface
+from ..mesh.arrays import as_indices, as_points
 from ..mesh.closest_corners import closest_corners
+from ..mesh.validation import check_indices
 
 FloatArray = NDArray[np.float64]
 Indices = NDArray[np.int32]
@@ -40,8 +42,14 @@ def mirrored_region(
     Raises
     ------
     ValueError
-        For a region without vertices, or an index out of range.
+        For a region without vertices, an index out of range, arrays of another shape, or
+        something else than a plane.
     """
+    who = "mirrored_region"
+    check_plane(plane, who)
+    vertices = as_points(vertices, who=who)
+    faces = as_indices(faces, corners=3, who=who, what="faces")
+    check_indices(faces, len(vertices), who=who, what="face")
     chosen = _mask(region, len(vertices))
     shown = np.unique(faces)
     inner = np.setdiff1d(np.arange(len(vertices)), shown)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from ..arguments import require_type
+
 # A word, at a change of case or next to anything but a letter: not the end of "bright".
 _WORD = re.compile(
     r"(?<![A-Za-z])(left|right|Left|Right|LEFT|RIGHT)(?![a-z])|(?<=[a-z])(Left|Right)(?![a-z])"
@@ -19,8 +21,9 @@ def mirrored_name(name: str) -> str:
     The word left or right changes, in any of the usual cases: "left ear", "EarLeft", "LEFT_EAR". So
     does the letter l or r at the end after one of . _ - or a space, or at the beginning before one:
     "ear.L", "ear_r", "L_ear", and before a number as in "ear.L.001". Other names get or lose
-    " mirrored" at the end.
+    " mirrored" at the end. ValueError for something else than a name.
     """
+    require_type("mirrored_name", "name", name, str, "give the name of a handle")
     other = _on_other_side(name)
     if other is not None:
         return other

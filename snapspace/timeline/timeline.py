@@ -8,7 +8,7 @@ from itertools import pairwise
 from math import floor, isfinite
 from typing import Any
 
-from ..arguments import is_number, wrong_type
+from ..arguments import is_number, require_count, require_positive, wrong_type
 
 #: How the time from a key to the next is used: slowly at both ends, evenly, or not at all.
 EASINGS = ("smooth", "linear", "hold")
@@ -82,14 +82,20 @@ class Timeline:
         return self.keys[-1].time - self.keys[0].time
 
     def frame_count(self, frames_per_second: float) -> int:
-        """Frames at a rate, including both ends; two at least."""
+        """Frames at a rate, including both ends; two at least. ValueError for no positive rate."""
+        require_positive("Timeline.frame_count", "frames_per_second", frames_per_second)
         return max(2, floor(self.duration * frames_per_second + 1e-9) + 1)
 
     def shares(self, frames: int) -> Iterator[tuple[int, float]]:
         """For evenly spaced frames, the index of a key each, and the share of the way to the next.
 
-        The first frame is the first key, and the last frame is the last key.
+        The first frame is the first key, and the last frame is the last key. ValueError for fewer
+        than two frames.
         """
+        require_count("Timeline.shares", "frames", frames, at_least=2)
+        return self._shares(frames)
+
+    def _shares(self, frames: int) -> Iterator[tuple[int, float]]:
         first, last = self.keys[0].time, len(self.keys) - 1
         at = 0
         for frame in range(frames):

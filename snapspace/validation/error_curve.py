@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import require_count, require_type
 from ..reduction import ReducedModel, check_model
 from ..snapshots import Progress, Snapshots
 from .validate import given_or_solved, validate
@@ -84,7 +85,7 @@ def error_curve(
         As for `validate`, and if a dimension is out of range or there are none.
     """
     check_model(model, "error_curve")
-    chosen = usual_dimensions(model.dimension) if dimensions is None else sorted(set(dimensions))
+    chosen = usual_dimensions(model.dimension) if dimensions is None else _whole(dimensions)
     wrong = [d for d in chosen if not 1 <= d <= model.dimension]
     if wrong or not chosen:
         raise ValueError(
@@ -98,3 +99,10 @@ def error_curve(
         replace(validate(model.leading(d), reference=reference), lower_minima=lower) for d in chosen
     ]
     return ErrorCurve(np.array(chosen, np.int64), tuple(validations))
+
+
+def _whole(dimensions: Sequence[int]) -> list[int]:
+    """Ascending dimensions, each once; ValueError for what is no list of whole numbers."""
+    require_type("error_curve", "dimensions", dimensions, Iterable, "give a list, such as [10, 20]")
+    who, name = "error_curve", "a dimension"
+    return sorted({require_count(who, name, d) for d in dimensions})

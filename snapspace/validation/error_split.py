@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..mesh import mass_norms
 from ..reduction import ReducedModel
 from ..snapshots import Snapshots
+from ..thread_count import checked_threads
 from .given_reference import check_reference
 from .restricted_energy import RestrictedEnergy
 
@@ -91,9 +92,10 @@ def split_errors(
     Raises
     ------
     ValueError
-        For a reference that `validate` would refuse.
+        For a reference that `validate` would refuse, or threads out of range.
     """
     check_reference(model, reference, who="split_errors")
+    checked_threads(threads, "split_errors")
     problem, subspace = model.problem, model.subspace
     rows = reference.displacements.shifted(problem.base - subspace.tau)
     projections = subspace.row_coordinates(rows)

@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import ceil
 
+from ..arguments import require_type
 from ..problem import InterpolationProblem, PosingProblem, is_quartic
 from ..reduction import (
     Energy,
     ReducedModel,
+    check_model,
     default_blended_tets,
     default_tets,
     element_count,
@@ -85,7 +87,14 @@ def next_option(model: ReducedModel, split: ErrorSplit) -> NextOption:
         For the cubature, twice as many tets, at least as many as `reduce` takes by default, with
         the same samples and dimension. Otherwise 1.5 times the dimension from twice as many
         samples, at least two per mode: a larger subspace of the same samples would fit only them.
+
+    Raises
+    ------
+    ValueError
+        For something else than a model and a split.
     """
+    check_model(model, "next_option")
+    require_type("next_option", "split", split, ErrorSplit, "give that of split_errors")
     problem, cubature = model.problem, model.cubature
     tets = None if cubature is None else len(cubature.tets)
     part, solved = split.largest, max(_solved_samples(model), model.dimension)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import require_count
 from ..problem import Problem
 from ..sampling import Domain
 from ..snapshots import Progress, Snapshots, SolverOptions, solve_snapshots
@@ -22,8 +23,8 @@ REFERENCE_ITERATIONS = 20_000
 
 def unseen_parameters(domain: Domain, count: int, *, seed: int) -> FloatArray:
     """Uniform random parameters (count, p), from a stream that `sample` never uses."""
-    if count < 1:
-        raise ValueError(f"validate: the number of samples is {count}, but must be at least 1")
+    count = require_count("validate", "the number of samples", count, at_least=1)
+    seed = require_count("validate", "the seed", seed, at_least=0)
     stream = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(1,)))
     return domain.from_unit(stream.random((count, domain.dimension)))
 

@@ -49,9 +49,10 @@ def validate(
     Raises
     ------
     ValueError
-        For something else than a model; if no full solution converged; for samples or seed together
-        with a reference; for a reference of another problem, without samples, with a sample that
-        did not converge, or with one at a training parameter of the model.
+        For something else than a model; for samples or a seed that are not whole numbers; if no
+        full solution converged; for samples or seed together with a reference; for a reference of
+        another problem, without samples, with a sample that did not converge, or with one at a
+        training parameter of the model.
     """
     reference, lower = given_or_solved(
         model, reference, samples=samples, seed=seed, threads=threads, progress=progress

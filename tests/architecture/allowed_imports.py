@@ -17,12 +17,13 @@ ALLOWED: dict[str, set[str]] = {
     "stopping": set(),
     "interruptible": {"_core", "stopping"},
     "mesh": {"arguments", "counted", "disk", "input_error", "notice"},
-    "registration": {"blas", "mesh"},
+    "registration": {"arguments", "blas", "mesh"},
     "sampling": {"arguments"},
     "pictures": {"arguments", "disk", "extras"},
     "stuffing": {"arguments", "mesh"},
     "doctor": {"counted", "mesh", "stopping"},
     "filling": {
+        "arguments",
         "counted",
         "doctor",
         "extras",
@@ -33,10 +34,10 @@ ALLOWED: dict[str, set[str]] = {
         "stopping",
         "stuffing",
     },
-    "fitting": {"_core", "blas", "interruptible", "material", "mesh", "registration"},
+    "fitting": {"arguments", "_core", "blas", "interruptible", "material", "mesh", "registration"},
     "generators": {"arguments", "mesh", "stuffing"},
-    "material": {"_core"},
-    "energy": {"_core", "blas", "material", "mesh"},
+    "material": {"arguments", "_core"},
+    "energy": {"arguments", "_core", "blas", "material", "mesh"},
     "problem": {
         "arguments",
         "_core",
@@ -51,7 +52,7 @@ ALLOWED: dict[str, set[str]] = {
         "registration",
         "sampling",
     },
-    "displacements": {"_core", "blas", "problem"},
+    "displacements": {"arguments", "_core", "blas", "mesh", "problem"},
     "subspace": {"arguments", "_core", "blas", "displacements", "mesh", "problem"},
     "snapshots": {
         "arguments",
@@ -67,8 +68,8 @@ ALLOWED: dict[str, set[str]] = {
         "stopping",
         "thread_count",
     },
-    "certificate": {"_core", "energy", "material", "mesh", "problem", "subspace"},
-    "cubature": {"_core", "blas", "energy", "material", "mesh", "problem", "subspace"},
+    "certificate": {"arguments", "_core", "energy", "material", "mesh", "problem", "subspace"},
+    "cubature": {"arguments", "_core", "blas", "energy", "material", "mesh", "problem", "subspace"},
     "reduction": {
         "arguments",
         "_core",
@@ -108,7 +109,7 @@ ALLOWED: dict[str, set[str]] = {
         "reduction",
         "subspace",
     },
-    "symmetry": {"mesh", "problem", "reduction"},
+    "symmetry": {"arguments", "mesh", "problem", "reduction"},
     "session": {
         "arguments",
         "_core",
@@ -125,6 +126,7 @@ ALLOWED: dict[str, set[str]] = {
     },
     "timeline": {"arguments", "disk", "mesh", "problem"},
     "calibration": {
+        "arguments",
         "certificate",
         "mesh",
         "problem",
@@ -197,5 +199,6 @@ ALLOWED: dict[str, set[str]] = {
         "reduction",
         "session",
         "sampling",
+        "thread_count",
     },
 }

@@ -266,7 +266,7 @@ def checked_surface(
 ) -> tuple[FloatArray, IndexArray]:
     """Vertices (n, 3) and faces (f, 3) of a file; ValueError if they are no surface."""
     points = as_points(vertices, who=who)
-    if not len(np.asarray(triangles)):
+    if np.asarray(triangles).ndim and not len(np.asarray(triangles)):
         raise ValueError(f"it has no faces ({len(points)} vertices)")
     faces = as_indices(triangles, corners=3, who=who, what="faces")
     check_points(points, who=who)
