@@ -9,6 +9,7 @@ import numpy as np
 from snapspace import (
     ErrorCurve,
     ErrorSplit,
+    Polished,
     Snapshots,
     Validation,
     snapshot_pca,
@@ -46,4 +47,12 @@ def test_validations_print_their_errors(posing_snapshots: Snapshots) -> None:
     assert repr(ErrorSplit(*parts)) == (
         "ErrorSplit(medians of 3 samples: error 0.00912, subspace 0.002, stiffness 0.008, "
         "cubature 0.001)"
+    )
+
+
+def test_a_polished_frame_prints_how_far_it_moved(posing_snapshots: Snapshots) -> None:
+    report = replace(posing_snapshots.reports[0], status="max_iterations", iterations=10)
+    polished = Polished(posing_snapshots.shapes, 0.00291, 0.00838, 0.005, report, 0.1)
+    assert repr(polished) == (
+        "Polished(moved 0.00291, 0.838 % of the displacement, 10 iterations, max_iterations)"
     )

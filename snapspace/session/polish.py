@@ -45,6 +45,13 @@ class Polished:
     report: SampleReport
     seconds: float
 
+    def __repr__(self) -> str:
+        report = self.report
+        return (
+            f"Polished(moved {self.moved:.3g}, {100 * self.moved_relative:.3g} % of the "
+            f"displacement, {report.iterations} iterations, {report.status})"
+        )
+
 
 class Polisher:
     """Full-space iterations for one subspace; shared preparations are done once.
