@@ -162,6 +162,7 @@ InterpolationSystem::Patches InterpolationSystem::patches_of(const BlendedEnergy
   const auto rigid = std::make_shared<RigidPatches>(
       poses.data(), edges_of(rest, poses, energy.poses(), of_stars ? 3 : 4),
       of_stars ? kMostPatches : kMostPatchesOfSolids);
+  if (rigid->count() == 0) return {};
   return {rigid, of_stars ? nullptr : std::make_shared<TetSample>(*rigid, rest)};
 }
 

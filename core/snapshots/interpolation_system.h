@@ -45,9 +45,7 @@ class InterpolationSystem final : public SampleSystem {
   [[nodiscard]] LbfgsMemory memory() const override { return kLongMemory; }
 
   [[nodiscard]] LaneObjectives lanes() const override;
-  [[nodiscard]] const RigidPatches* patches() const override {
-    return patches_.rigid && patches_.rigid->count() > 0 ? patches_.rigid.get() : nullptr;
-  }
+  [[nodiscard]] const RigidPatches* patches() const override { return patches_.rigid.get(); }
   void add_to(PatchHessian& hessian, const double* weights, const double* u) const override;
   [[nodiscard]] std::unique_ptr<LaneObjective<double>> objective() const override;
   [[nodiscard]] BlockHessian hessian_pattern() const override {
