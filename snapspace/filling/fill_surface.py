@@ -102,10 +102,12 @@ def _check_one_solid(vertices: NDArray[np.float64], tets: NDArray[np.int32]) -> 
     share = np.bincount(solid, volumes) / volumes.sum()
     solids = int((share > _CRUMB).sum())
     if solids > 1:
-        second = np.argsort(-share)[1]
-        around = ", ".join(f"{x:.4g}" for x in vertices[tets[solid == second]].mean(axis=(0, 1)))
+        second = solid == np.argsort(-share)[1]
+        middles = vertices[tets[second]].mean(axis=1)
+        center = np.average(middles, axis=0, weights=volumes[second])
+        around = ", ".join(f"{x:.4g}" for x in center)
         raise ValueError(
             f"fill_surface: the tets form {solids} separate solids (the second largest: "
-            f"{100 * share[second]:.2g} % of the volume around ({around})), but one is needed; "
+            f"{100 * np.sort(share)[-2]:.2g} % of the volume around ({around})), but one is needed; "
             "join them or remove all but one, or lower the tolerance if a thin bridge was lost"
         )

@@ -11,8 +11,9 @@ from ..interruptible import run_interruptible
 
 FloatArray = NDArray[np.float64]
 
-#: The mean shape is solved until twice the predicted decrease is below this share of its energy.
-TOLERANCE = 1e-9
+#: The mean shape is solved until twice the predicted decrease is below this share of its energy. It
+#: is tighter than samples, whose displacements are from it.
+TOLERANCE = 1e-10
 #: Iterations between two adaptations of the factor, which cost as much as about 15 iterations each.
 #: On the Lion 40, 80 and 160 need 240, 240 and 330 iterations in all; no adaptation needs 1100.
 _STAGE = 80
