@@ -106,8 +106,9 @@ def _check_one_solid(vertices: NDArray[np.float64], tets: NDArray[np.int32]) -> 
         middles = vertices[tets[second]].mean(axis=1)
         center = np.average(middles, axis=0, weights=volumes[second])
         around = ", ".join(f"{x:.4g}" for x in center)
+        percent = 100 * np.sort(share)[-2]
         raise ValueError(
             f"fill_surface: the tets form {solids} separate solids (the second largest: "
-            f"{100 * np.sort(share)[-2]:.2g} % of the volume around ({around})), but one is needed; "
-            "join them or remove all but one, or lower the tolerance if a thin bridge was lost"
+            f"{percent:.2g} % of the volume around ({around})), but one is needed; join them "
+            "or remove all but one, or lower the tolerance if a thin bridge was lost"
         )
