@@ -62,6 +62,15 @@ def correction(problem: InterpolationProblem, shape: FloatArray, w: FloatArray) 
     return result
 
 
+def left_by_correction(problem: InterpolationProblem, minimum: FloatArray, w: FloatArray) -> float:
+    """The share of a step in the patches' space, from the minimum, that a correction leaves."""
+    noise = np.random.default_rng(0).normal(size=minimum.size)
+    in_space = correction(problem, minimum + 1e-5 * noise, w)
+    undone = correction(problem, minimum + in_space, w)
+    undone -= correction(problem, minimum, w)
+    return float(np.linalg.norm(undone - in_space) / np.linalg.norm(in_space))
+
+
 def test_corrections_are_newton_steps_for_motions_of_the_patches(
     problem: InterpolationProblem, solved: Snapshots, wanted: FloatArray
 ) -> None:
@@ -69,12 +78,7 @@ def test_corrections_are_newton_steps_for_motions_of_the_patches(
 
     The shift of the Hessian leaves a tenth; a shift of 1e-4 would leave 0.005.
     """
-    w, minimum = wanted[0], solved.displacements[0]
-    noise = np.random.default_rng(0).normal(size=minimum.size)
-    in_space = correction(problem, minimum + 1e-5 * noise, w)
-    undone = correction(problem, minimum + in_space, w)
-    undone -= correction(problem, minimum, w)
-    assert np.linalg.norm(undone - in_space) < 0.15 * np.linalg.norm(in_space)
+    assert left_by_correction(problem, solved.displacements[0], wanted[0]) < 0.15
 
 
 def test_bending_that_the_scalar_matrix_takes_for_stiff_is_undone_at_once(
