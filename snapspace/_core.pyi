@@ -441,7 +441,7 @@ class CoarseSpace:
 
 def polish(system: SampleSystem, coarse: CoarseSpace | None, inverse: NDArray[numpy.float64], input: NDArray[numpy.float64], start: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl) -> Solution:
     """
-    L-BFGS on one sample from start (3n,), with a two-level seed; inverse (d, d) is that of the Hessian on the coarse space, or (0, 0) without one, as for systems with patches. If it is cancelled, it returns the lowest shape so far.
+    L-BFGS on one sample from start (3n,), with a two-level seed; inverse (d, d) is that of the Hessian on the coarse space, or (0, 0) without one, as for surfaces with patches. If it is cancelled, it returns the lowest shape so far.
     """
 
 class FitStatus(enum.Enum):

@@ -43,7 +43,7 @@ void bind_polish(nb::module_& m) {
       nb::arg("start"), nb::kw_only(), nb::arg("tolerance"), nb::arg("max_iterations"),
       nb::arg("threads"), nb::arg("control"),
       "L-BFGS on one sample from start (3n,), with a two-level seed; inverse (d, d) is that of the "
-      "Hessian on the coarse space, or (0, 0) without one, as for systems with patches. If it is "
+      "Hessian on the coarse space, or (0, 0) without one, as for surfaces with patches. If it is "
       "cancelled, it returns the lowest shape so far.");
 }
 

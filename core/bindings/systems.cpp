@@ -11,6 +11,12 @@ namespace snapspace {
 
 namespace {
 
+void check_blend(const InterpolationSystem& system, const VectorIn& u, const VectorIn& weights) {
+  require(u.size() == static_cast<std::size_t>(system.size()) &&
+              weights.size() == static_cast<std::size_t>(system.input_size()),
+          "needs a (3n,) vector and (input_size,) weights");
+}
+
 LocalMesh local_mesh(const double* vertices, std::size_t count, const IndexMatrixIn& tets) {
   require(tets.shape(1) == 4, "tets must be (m, 4)");
   const auto n = static_cast<std::int32_t>(count);
@@ -84,9 +90,7 @@ void bind_systems(nb::module_& m) {
   interpolation.def(
       "tet_stresses",
       [](const InterpolationSystem& self, VectorIn u, VectorIn weights) {
-        require(u.size() == static_cast<std::size_t>(self.size()) &&
-                    weights.size() == static_cast<std::size_t>(self.input_size()),
-                "needs a (3n,) vector and (input_size,) weights");
+        check_blend(self, u, weights);
         const auto tets = static_cast<std::size_t>(self.energy->tets());
         DoublesOut stresses = new_array<double>({tets, 9}), energies = new_array<double>({tets});
         DoublesOut gradient = new_array<double>({u.size()});
@@ -111,9 +115,7 @@ void bind_systems(nb::module_& m) {
   interpolation.def(
       "tet_hessians",
       [](const InterpolationSystem& self, VectorIn u, VectorIn weights) {
-        require(u.size() == static_cast<std::size_t>(self.size()) &&
-                    weights.size() == static_cast<std::size_t>(self.input_size()),
-                "needs a (3n,) vector and (input_size,) weights");
+        check_blend(self, u, weights);
         require(self.energy->has_tet_hessians(), "the density has no Hessians of blends");
         const auto tets = static_cast<std::size_t>(self.energy->tets());
         DoublesOut result = new_array<double>({tets, 9, 9});

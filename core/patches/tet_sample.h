@@ -17,7 +17,6 @@ struct TetSample {
   /// minimum: the seed does not know thin limbs.
   static constexpr int kOfPatch = 64;
 
-  TetSample() = default;
   TetSample(const RigidPatches& patches, const RestShape& rest);
 };
 

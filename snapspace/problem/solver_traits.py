@@ -52,10 +52,11 @@ class SolverTraits:
     polishing_hessian: bool
 
 
-#: Iterations on the shared factor after which an interpolated sample gets its own factor. Most take
-#: 200. A factor and a solve alone take as long as about 600 iterations beside others: 32 samples of
-#: ten Lions take 10.3 s with 240, 5.6 s with 400, and 6.9 s with 800. Samples that start far from
-#: their minimum take 650 on the shared factor, or 240 on it and 220 more on their own.
+#: Iterations on the shared factor after which an interpolated sample gets its own factor. Without
+#: patches most take 200. A factor and a solve alone take as long as about 600 iterations beside
+#: others: 32 samples of ten Lions take 10.3 s with 240, 5.6 s with 400, and 6.9 s with 800. Samples
+#: that start far from their minimum take 650 on the shared factor, or 240 on it and 220 more on
+#: their own.
 PATIENCE = 400
 
 

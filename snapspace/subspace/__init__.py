@@ -1,6 +1,6 @@
 """Affine subspaces of shapes, including the best one for given snapshots (paper, sec. 5)."""
 
-from .affine_subspace import AffineSubspace, check_dimension, check_subspace
+from .affine_subspace import AffineSubspace, check_subspace
 from .directions import affine_subspace
 from .handle_windows import handle_windows
 from .pca import pca, snapshot_pca, spanned_dimension
@@ -11,7 +11,6 @@ __all__ = [
     "AffineSubspace",
     "RigidFrames",
     "affine_subspace",
-    "check_dimension",
     "check_subspace",
     "handle_windows",
     "pca",
