@@ -396,9 +396,9 @@ class InterpolationSystem(SampleSystem):
         The same problem with an inverse for solutions near displacements (k, 3n) for weights (k, poses).
         """
 
-    def tet_stresses(self, u: NDArray[numpy.float64], weights: NDArray[numpy.float64]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64], NDArray[numpy.float64]]:
+    def some_tet_stresses(self, u: NDArray[numpy.float64], weights: NDArray[numpy.float64], which: NDArray[numpy.int32]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
         """
-        First Piola-Kirchhoff stress against pose 0 times its volume (m, 9) and energy (m,) of each tet, and the gradient (3n,) of the sum of energies.
+        First Piola-Kirchhoff stress against pose 0 times its volume (c, 9) and energy (c,) of some different tets (c,).
         """
 
     def tet_hessians(self, u: NDArray[numpy.float64], weights: NDArray[numpy.float64]) -> NDArray[numpy.float64]:

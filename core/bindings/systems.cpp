@@ -88,30 +88,36 @@ void bind_systems(nb::module_& m) {
       "The same problem with an inverse for solutions near displacements (k, 3n) for weights (k, "
       "poses).");
   interpolation.def(
-      "tet_stresses",
-      [](const InterpolationSystem& self, VectorIn u, VectorIn weights) {
+      "some_tet_stresses",
+      [](const InterpolationSystem& self, VectorIn u, VectorIn weights, IndexVectorIn which) {
         check_blend(self, u, weights);
-        const auto tets = static_cast<std::size_t>(self.energy->tets());
-        DoublesOut stresses = new_array<double>({tets, 9}), energies = new_array<double>({tets});
-        DoublesOut gradient = new_array<double>({u.size()});
+        std::vector<std::int32_t> places(self.tet_order.size(), -1);  // in the result
+        for (std::size_t i = 0; i < which.size(); ++i) {
+          require(which(i) >= 0 && which(i) < self.energy->tets(), "a tet is not in the mesh");
+          require(places[which(i)] < 0, "a tet is there twice");
+          places[which(i)] = static_cast<std::int32_t>(i);
+        }
+        DoublesOut stresses = new_array<double>({which.size(), 9}),
+                   energies = new_array<double>({which.size()});
         {
           const ReleasedGil released;
-          std::vector<double> shape(u.size()), slope(u.size()), P(9 * tets), psi(tets);
+          std::vector<std::int32_t> some;  // in the order of the system
+          for (std::size_t t = 0; t < places.size(); ++t)
+            if (places[self.tet_order[t]] >= 0) some.push_back(static_cast<std::int32_t>(t));
+          std::vector<double> shape(u.size()), P(9 * some.size()), psi(some.size());
           self.numbering.to_internal(u.data(), shape.data());
-          self.energy->tet_stresses(weights.data(), shape.data(), P.data(), psi.data(),
-                                    slope.data());
-          self.numbering.to_external(slope.data(), gradient.data());
-          for (std::size_t t = 0; t < tets; ++t) {
-            const auto external = static_cast<std::size_t>(self.tet_order[t]);
-            std::copy_n(P.data() + 9 * t, 9, stresses.data() + 9 * external);
-            energies.data()[external] = psi[t];
+          self.energy->tet_stresses(some, weights.data(), shape.data(), P.data(), psi.data());
+          for (std::size_t i = 0; i < some.size(); ++i) {
+            const std::int32_t place = places[self.tet_order[some[i]]];
+            std::copy_n(P.data() + 9 * i, 9, stresses.data() + 9 * place);
+            energies.data()[place] = psi[i];
           }
         }
-        return std::make_tuple(stresses, energies, gradient);
+        return std::make_pair(stresses, energies);
       },
-      nb::arg("u"), nb::arg("weights"),
-      "First Piola-Kirchhoff stress against pose 0 times its volume (m, 9) and energy (m,) of each "
-      "tet, and the gradient (3n,) of the sum of energies.");
+      nb::arg("u"), nb::arg("weights"), nb::arg("which"),
+      "First Piola-Kirchhoff stress against pose 0 times its volume (c, 9) and energy (c,) of some "
+      "different tets (c,).");
   interpolation.def(
       "tet_hessians",
       [](const InterpolationSystem& self, VectorIn u, VectorIn weights) {

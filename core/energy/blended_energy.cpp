@@ -1,10 +1,13 @@
 #include "energy/blended_energy.h"
 
 #include <algorithm>
+#include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "energy/shell_poses.h"
 #include "material/pose_blend.h"
+#include "threads/parallel.h"
 
 namespace snapspace {
 
@@ -37,12 +40,14 @@ BlendedEnergy::BlendedEnergy(const double* poses, int count, int vertex_count,
       shell ? shell_pose_materials(poses, count, vertex_count, tets, tet_count, material)
             : std::vector<MaterialField>(count, material);
   const std::size_t size = 3 * static_cast<std::size_t>(vertex_count);
-  for (int k = 0; k < count; ++k) {
+  std::vector<std::optional<ElasticEnergy>> energies(count);
+  offsets_.assign(count, std::vector<double>(poses, poses + size));
+  parallel_for(count, 0, [&](int k) {
     const double* pose = poses + k * size;
-    energies_.emplace_back(RestShape(pose, vertex_count, tets, tet_count, shell), materials[k]);
-    std::vector<double>& offset = offsets_.emplace_back(poses, poses + size);
-    for (std::size_t i = 0; i < size; ++i) offset[i] -= pose[i];
-  }
+    energies[k].emplace(RestShape(pose, vertex_count, tets, tet_count, shell), materials[k]);
+    for (std::size_t i = 0; i < size; ++i) offsets_[k][i] -= pose[i];
+  });
+  for (std::optional<ElasticEnergy>& energy : energies) energies_.push_back(std::move(*energy));
   if (energies_[0].stars) {
     std::vector<const VertexStars*> stars;
     for (const ElasticEnergy& energy : energies_) stars.push_back(&*energy.stars);
@@ -51,9 +56,12 @@ BlendedEnergy::BlendedEnergy(const double* poses, int count, int vertex_count,
   }
   const int numbers = numbers_of(kind());
   numbers_.resize(static_cast<std::size_t>(tet_count) * count * numbers);
-  double* next = numbers_.data();
-  for (int t = 0; t < tet_count; ++t)
-    for (int k = 0; k < count; ++k, next += numbers) fill_numbers(t, k, next);
+  constexpr int kPiece = 4096;
+  parallel_for((tet_count + kPiece - 1) / kPiece, 0, [&](int piece) {
+    for (int t = piece * kPiece; t < std::min((piece + 1) * kPiece, tet_count); ++t)
+      for (int k = 0; k < count; ++k)
+        fill_numbers(t, k, &numbers_[(static_cast<std::size_t>(t) * count + k) * numbers]);
+  });
 }
 
 /// F A_k = F + F G with the displacement gradient G of pose 0 against pose k, so that A_k = I + G.
@@ -81,14 +89,20 @@ void BlendedEnergy::set_weights(int lane, const double* weights, Real* blend) co
     for (int k = 0; k < poses(); ++k) set_lane(blend[k], lane, weights[k]);
     return;
   }
-  const int numbers = numbers_of(kind()), sums = numbers - constants_of(kind());
-  const double* pose = numbers_.data();
-  for (int t = 0; t < tets(); ++t, pose += numbers * poses())
-    for (int i = 0; i < numbers; ++i, ++blend) {
-      double sum = i < sums ? 0.0 : pose[i];
-      for (int k = 0; k < poses() && i < sums; ++k) sum += weights[k] * pose[k * numbers + i];
-      set_lane(*blend, lane, sum);
-    }
+  std::vector<double> sums(numbers_of(kind()));
+  for (int t = 0; t < tets(); ++t) {
+    sum_numbers(t, weights, sums);
+    for (const double sum : sums) set_lane(*blend++, lane, sum);
+  }
+}
+
+void BlendedEnergy::sum_numbers(int tet, const double* weights, std::vector<double>& sums) const {
+  const int numbers = numbers_of(kind()), summed = numbers - constants_of(kind());
+  const double* pose = numbers_.data() + static_cast<std::size_t>(tet) * poses() * numbers;
+  for (int i = 0; i < numbers; ++i) {
+    sums[i] = i < summed ? 0.0 : pose[i];
+    for (int k = 0; k < poses() && i < summed; ++k) sums[i] += weights[k] * pose[k * numbers + i];
+  }
 }
 
 template <class Density, class Real>
@@ -101,7 +115,7 @@ Sum<Real> BlendedEnergy::tet_value_and_stress(int tet, const Real* blend, const 
     Real sums[kNumbers];
     const Real* numbers = sums;
     if (poses() > kFewPoses) {
-      numbers = blend + static_cast<std::size_t>(tet) * kNumbers;
+      numbers = blend;
     } else {
       for (int i = 0; i < kSums; ++i) sums[i] = blend[0] * Real(pose[i]);
       for (int i = kSums; i < kNumbers; ++i) sums[i] = Real(pose[i]);
@@ -152,29 +166,29 @@ Sum<Real> BlendedEnergy::value_and_gradient(const Real* blend, const Real* u, Re
   std::fill_n(gradient, size(), Real(0.0));
   if (stars_) return add_stars(blend, u, gradient, begin, end);
   return Densities::with(kind(), [&]<class Density>() {
+    const std::size_t own = keeps_sums() ? PoseBlend<Density>::numbers() : 0;
     Sum<Real> energy(0.0);
     for (int t = begin; t < end; ++t) {
       const auto& tet = energies_[0].rest.tets[t];
       Real G[3][3], P[3][3];
       displacement_gradient(tet, u, G);
-      energy += tet_value_and_stress<Density>(t, blend, G, P);
+      energy += tet_value_and_stress<Density>(t, blend + own * t, G, P);
       scatter_stress(tet, P, gradient);
     }
     return energy;
   });
 }
 
-void BlendedEnergy::tet_stresses(const double* weights, const double* u, double* stresses,
-                                 double* energies, double* gradient) const {
-  std::fill_n(gradient, size(), 0.0);
-  std::vector<double> blend(blend_size());
-  set_weights(0, weights, blend.data());
+void BlendedEnergy::tet_stresses(const std::vector<std::int32_t>& which, const double* weights,
+                                 const double* u, double* stresses, double* energies) const {
+  std::vector<double> sums(numbers_of(kind()));
   Densities::with(kind(), [&]<class Density>() {
-    for (int t = 0; t < tets(); ++t) {
+    for (const std::int32_t t : which) {
       double G[3][3], P[3][3];
       displacement_gradient(energies_[0].rest.tets[t], u, G);
-      *energies++ = tet_value_and_stress<Density>(t, blend.data(), G, P);
-      scatter_stress(energies_[0].rest.tets[t], P, gradient);
+      if (keeps_sums()) sum_numbers(t, weights, sums);
+      const double* blend = keeps_sums() ? sums.data() : weights;
+      *energies++ = tet_value_and_stress<Density>(t, blend, G, P);
       for (const auto& row : P)
         for (const double entry : row) *stresses++ = entry;
     }

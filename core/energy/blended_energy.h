@@ -48,10 +48,10 @@ class BlendedEnergy {
   [[nodiscard]] Sum<Real> value_and_gradient(const Real* blend, const Real* u, Real* gradient,
                                              int begin, int end) const;
 
-  /// First Piola-Kirchhoff stresses against pose 0 times its volume (tets x 9, row by row),
-  /// energies (tets) and the resulting gradient (3n), at u for these weights; not of stars.
-  void tet_stresses(const double* weights, const double* u, double* stresses, double* energies,
-                    double* gradient) const;
+  /// First Piola-Kirchhoff stresses of some tets against pose 0 times its volume (c x 9, row by
+  /// row) and their energies (c), at u for these weights; not of stars.
+  void tet_stresses(const std::vector<std::int32_t>& which, const double* weights, const double* u,
+                    double* stresses, double* energies) const;
 
   /// Whether there are Hessians of single tets.
   [[nodiscard]] bool has_tet_hessians() const;
@@ -68,9 +68,12 @@ class BlendedEnergy {
   /// Whether a sample keeps the sums of all tets.
   [[nodiscard]] bool keeps_sums() const;
   void fill_numbers(int tet, int pose, double* result) const;
+  /// The numbers of a tet, summed over the poses with these weights.
+  void sum_numbers(int tet, const double* weights, std::vector<double>& sums) const;
   template <class Real>
   [[nodiscard]] Sum<Real> add_stars(const Real* blend, const Real* u, Real* gradient, int begin,
                                     int end) const;
+  /// @param blend  the weights, or the tet's own sums
   template <class Density, class Real>
   [[nodiscard]] Sum<Real> tet_value_and_stress(int tet, const Real* blend, const Real G[3][3],
                                                Real P[3][3]) const;

@@ -133,26 +133,34 @@ InterpolationSystem::InterpolationSystem(const LocalMesh& mesh, const std::vecto
           std::make_shared<BlendedEnergy>(poses.data(), count, static_cast<int>(mesh.order.size()),
                                           mesh.tets.data(), static_cast<int>(mesh.tets.size() / 4),
                                           material.reordered(mesh.tet_order, mesh.order)),
-          mesh.tet_order, {}) {
-  patches_ = patches_of(*energy, poses);
-}
+          mesh.tet_order, poses) {}
 
 InterpolationSystem::InterpolationSystem(Numbering numbers,
                                          std::shared_ptr<const BlendedEnergy> blended,
-                                         std::vector<std::int32_t> tets, Patches patches)
-    : InterpolationSystem(std::move(numbers), blended, std::move(tets), std::move(patches),
-                          ScalarInverse(scalar_matrix(
-                              *blended, std::vector<double>(blended->size(), 0.0),
-                              std::vector<double>(blended->poses(), 1.0 / blended->poses())))) {}
+                                         std::vector<std::int32_t> tets,
+                                         const std::vector<double>& poses)
+    : InterpolationSystem(std::move(numbers), blended, std::move(tets), seed_of(*blended, poses)) {}
 
 InterpolationSystem::InterpolationSystem(Numbering numbers,
                                          std::shared_ptr<const BlendedEnergy> blended,
-                                         std::vector<std::int32_t> tets, Patches patches,
-                                         ScalarInverse scalar)
-    : SampleSystem(std::move(numbers), std::move(scalar)),
+                                         std::vector<std::int32_t> tets, Seed seed)
+    : SampleSystem(std::move(numbers), std::move(*seed.scalar)),
       energy(std::move(blended)),
       tet_order(std::move(tets)),
-      patches_(std::move(patches)) {}
+      patches_(std::move(seed.patches)) {}
+
+InterpolationSystem::Seed InterpolationSystem::seed_of(const BlendedEnergy& energy,
+                                                       const std::vector<double>& poses) {
+  Seed seed;
+  parallel_for(2, 0, [&](int part) {  // each is serial and takes about as long
+    if (part == 0)
+      seed.patches = patches_of(energy, poses);
+    else
+      seed.scalar.emplace(scalar_matrix(energy, std::vector<double>(energy.size(), 0.0),
+                                        std::vector<double>(energy.poses(), 1.0 / energy.poses())));
+  });
+  return seed;
+}
 
 InterpolationSystem::Patches InterpolationSystem::patches_of(const BlendedEnergy& energy,
                                                              const std::vector<double>& poses) {
@@ -168,8 +176,8 @@ InterpolationSystem::Patches InterpolationSystem::patches_of(const BlendedEnergy
 
 InterpolationSystem InterpolationSystem::adapted(const std::vector<double>& shapes,
                                                  const std::vector<double>& weights) const {
-  return {numbering, energy, tet_order, patches_,
-          inverse.of(scalar_matrix(*energy, shapes, weights))};
+  return {numbering, energy, tet_order,
+          Seed{patches_, inverse.of(scalar_matrix(*energy, shapes, weights))}};
 }
 
 void InterpolationSystem::add_to(PatchHessian& hessian, const double* weights,

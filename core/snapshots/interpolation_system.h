@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "energy/blended_energy.h"
@@ -59,12 +60,18 @@ class InterpolationSystem final : public SampleSystem {
     std::shared_ptr<const RigidPatches> rigid;
     std::shared_ptr<const TetSample> tets;  // of solids
   };
+  struct Seed {
+    Patches patches;
+    std::optional<ScalarInverse> scalar;
+  };
   static Patches patches_of(const BlendedEnergy& energy, const std::vector<double>& poses);
+  /// Patches, and the inverse near the first pose.
+  static Seed seed_of(const BlendedEnergy& energy, const std::vector<double>& poses);
 
   InterpolationSystem(Numbering numbers, std::shared_ptr<const BlendedEnergy> blended,
-                      std::vector<std::int32_t> tets, Patches patches);
+                      std::vector<std::int32_t> tets, const std::vector<double>& poses);
   InterpolationSystem(Numbering numbers, std::shared_ptr<const BlendedEnergy> blended,
-                      std::vector<std::int32_t> tets, Patches patches, ScalarInverse scalar);
+                      std::vector<std::int32_t> tets, Seed seed);
 
   Patches patches_;
 };

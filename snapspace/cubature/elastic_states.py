@@ -204,22 +204,27 @@ class BlendingStates:
 
     def stresses(self, state: int, displacement: FloatArray) -> FloatArray:
         """See `ElasticStates`."""
-        return self._of_tets(state, displacement)[0]
+        every = np.arange(len(self.problem.mesh.elements), dtype=np.int32)
+        return self._of_tets(state, displacement, every)[0]
 
     def evaluated(self, first: int, displacements: FloatArray, tets: IntArray) -> GroupForces:
         """See `ElasticStates`."""
-        every = [self._of_tets(first + k, u) for k, u in enumerate(displacements)]
-        energies = np.array([energies.sum() for _, energies, _ in every])
-        gradients = np.array([gradient for _, _, gradient in every])
-        stresses = np.array([stresses[tets] for stresses, _, _ in every])
-        return GroupForces(energies, gradients, stresses, np.array([e[tets] for _, e, _ in every]))
+        shapes, own = self._shift + displacements, slice(first, first + len(displacements))
+        energies, gradients = self.problem.system.evaluate(shapes, self.weights[own], threads=1)
+        single = [self._of_tets(first + k, u, tets) for k, u in enumerate(displacements)]
+        stresses, tet_energies = (np.array(part) for part in zip(*single, strict=True))
+        return GroupForces(energies, gradients, stresses, tet_energies)
+
+    @property
+    def _shift(self) -> FloatArray:
+        return self.subspace.tau - self.problem.base
 
     def _of_tets(
-        self, state: int, displacement: FloatArray
-    ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Stresses (m, 9) and energies (m,) of all tets, and the gradient (3n,)."""
-        u = self.subspace.tau - self.problem.base + displacement
-        return self.problem.system.tet_stresses(u, self.weights[state])
+        self, state: int, displacement: FloatArray, tets: IntArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Stresses (c, 9) and energies (c,) of some tets."""
+        system, shape = self.problem.system, self._shift + displacement
+        return system.some_tet_stresses(shape, self.weights[state], tets)
 
     def sum_over(self, tets: IntArray, volumes: FloatArray) -> BlendedSum:
         """See `ElasticStates`."""

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from snapspace import (
     MATERIALS,
     InterpolationProblem,
+    Poses,
     StableNeoHookean,
     sample,
     solve_snapshots,
@@ -60,8 +61,8 @@ def test_stresses_of_tets_make_the_gradient(kind: str) -> None:
     one = problem(kind)
     u = deformed(MESH, 0.05) - one.base
     value, gradient = one.system.value_and_gradient(u, WEIGHTS)
-    stresses, energies, same = one.system.tet_stresses(u, WEIGHTS)
-    assert same == pytest.approx(gradient, abs=1e-12 * np.abs(gradient).max())
+    every = np.arange(len(MESH.tets), dtype=np.int32)
+    stresses, energies = one.system.some_tet_stresses(u, WEIGHTS, every)
     assert energies.sum() == pytest.approx(value, rel=1e-12)
     along = np.random.default_rng(1).normal(size=u.size)
     edges = MESH.vertices[MESH.tets[:, 1:]] - MESH.vertices[MESH.tets[:, :1]]
@@ -69,6 +70,27 @@ def test_stresses_of_tets_make_the_gradient(kind: str) -> None:
     change = np.linalg.inv(edges) @ (moves[:, 1:] - moves[:, :1])  # transposed
     work = np.einsum("tab,tba->", stresses.reshape(-1, 3, 3), change)
     assert work == pytest.approx(gradient @ along, rel=1e-10)
+
+
+@every_kind
+def test_stresses_of_some_tets_are_those_of_all(kind: str) -> None:
+    """In any order, and for so many poses that their numbers are summed before."""
+    one, four_times = problem(kind), Poses(np.tile(POSES.shapes, (4, 1, 1)), POSES.tets)
+    many = InterpolationProblem(four_times, material=one.material).system
+    u = deformed(MESH, 0.05) - one.base
+    stresses, energies = one.system.some_tet_stresses(u, WEIGHTS, np.arange(TETS, dtype=np.int32))
+    which = np.random.default_rng(2).permutation(TETS)[: TETS // 2].astype(np.int32)
+    for system, weights in ((one.system, WEIGHTS), (many, np.tile(WEIGHTS, 4) / 4.0)):
+        some, parts = system.some_tet_stresses(u, weights, which)
+        assert some == pytest.approx(stresses[which], abs=1e-12 * np.abs(stresses).max())
+        assert parts == pytest.approx(energies[which], abs=1e-12 * energies.max())
+
+
+@pytest.mark.parametrize("which", [[TETS], [-1], [3, 3]])
+def test_stresses_of_a_tet_that_is_not_there_or_twice(which: list[int]) -> None:
+    one = problem("stable-neo-hookean")
+    with pytest.raises(ValueError, match="a tet is"):
+        one.system.some_tet_stresses(0.0 * one.base, WEIGHTS, np.array(which, np.int32))
 
 
 @every_kind
