@@ -43,7 +43,7 @@ class BlendDomain(Domain, Protocol):
     """A domain of weights, whose corners are blended two and three at a time."""
 
     def blends(self, count: int, *, seed: int, scramble: bool) -> FloatArray:
-        """Weights of two and of three corners, and a share of weights of all: (count, p)."""
+        """Weights of two or three corners, and a share of weights of all corners: (count, p)."""
         ...
 
 
@@ -63,8 +63,8 @@ def sample(
         The box of the handles' motions, or the simplex of interpolation weights.
     count : int
         Number of samples, > 0. A grid has the largest number of points up to `count` that its
-        domain allows: in a box of six dimensions 300 become 3 * 3 * 3 * 2 * 2 * 2 = 216, see
-        `HandleBox.grid`; on the simplex of three weights 30 become 1 + 2 + ... + 7 = 28, see
+        domain allows. In a box of six dimensions, 300 become 3 * 3 * 3 * 2 * 2 * 2 = 216, see
+        `HandleBox.grid`. On the simplex of three weights, 30 become 1 + 2 + ... + 7 = 28, see
         `Simplex.grid`.
     method : "random", "sobol", "grid" or "blends", default "random"
         Independent uniform points, a Sobol sequence (Sobol 1967, directions of Joe & Kuo), or the
@@ -72,7 +72,7 @@ def sample(
         three poses at a time, so it takes all pairs, then triples as well, with a share of uniform
         points, see `Simplex.blends`.
     seed : int, default 0
-        Seed for "random", for the scrambling of "sobol" and for the order of poses in "blends".
+        Seed of "random", of the scrambling of "sobol" and of the order of poses in "blends".
     scramble : bool, default True
         Whether to use Owen's scrambling of the Sobol sequence. Without it the first point is the
         lower corner of the box, or the last corner of the simplex, and "blends" takes the poses in
@@ -82,14 +82,14 @@ def sample(
     -------
     ndarray, (k, p)
         One row of p parameters per sample: 6 per moving handle, or one weight per corner of the
-        simplex. k = count except for a grid. The same arguments give the same points; longer
-        samples begin with the shorter ones, except for grids.
+        simplex. k = count except for a grid. The same arguments give the same points. Except for
+        grids, the points of a smaller count are the first points of a larger one.
 
     Raises
     ------
     ValueError
-        For something else than a domain, a count that is not a whole number from 1 on, a seed that
-        is not one from 0 on, an unknown method, or blends in a domain without them.
+        For something other than a domain, a count that is not a positive whole number, a seed that
+        is not a whole number or is negative, an unknown method, or blends in a domain without them.
     """
     if not isinstance(domain, Domain):
         cure = "give problem.domain" if hasattr(domain, "domain") else "give a HandleBox or Simplex"

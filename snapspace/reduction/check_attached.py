@@ -1,4 +1,4 @@
-"""check_attached: a subspace has to go through a problem's reference shape."""
+"""check_attached: a subspace must go through its problem's reference shape."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..subspace import AffineSubspace, check_subspace
 def check_attached(
     problem: PosingProblem | InterpolationProblem, subspace: AffineSubspace, *, who: str
 ) -> None:
-    """ValueError of `who` unless these are a problem and a subspace through its tau."""
+    """Raises a ValueError of `who` unless the subspace goes through the problem's tau."""
     if not isinstance(problem, (PosingProblem, InterpolationProblem)):
         raise wrong_type(who, "problem", problem, "give the problem first, then the subspace")
     check_subspace(subspace, who)

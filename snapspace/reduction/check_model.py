@@ -1,4 +1,4 @@
-"""check_model: refuses what is no model."""
+"""check_model: refuses anything that is not a model."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from .reduced_model import ReducedModel
 
 
 def check_model(model: ReducedModel, who: str, cure: str = "give that of reduce or load") -> None:
-    """ValueError of `who` for something else than a model, such as a session."""
+    """Raises a ValueError in the name of `who` for anything but a model, such as a session."""
     if not isinstance(model, ReducedModel):
         is_session = hasattr(model, "model")
         raise wrong_type(who, "model", model, "give session.model" if is_session else cure)

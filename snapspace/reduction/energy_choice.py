@@ -9,11 +9,11 @@ from ..mesh import ShellMesh
 from ..problem import InterpolationProblem, PosingProblem, is_quartic
 
 Energy = Literal["auto", "exact", "cubature", "full"]
-#: Those that model files and pages hold, and all.
+#: The energies that model files and pages can hold, and all energies.
 STORED_ENERGIES: tuple[Energy, ...] = ("auto", "exact", "cubature")
 ENERGIES: tuple[Energy, ...] = (*STORED_ENERGIES, "full")
 
-#: How much more than a cubature an exact quartic may cost: it needs no tight snapshots, and has no
+#: How much more than a cubature an exact quartic may cost. It needs no tight snapshots and has no
 #: error. On the Dragon, d = 40, a warm solve takes 0.17 ms with it and 0.10 ms with 320 tets.
 EXACTNESS = 2.0
 
@@ -59,9 +59,9 @@ def chosen_energy(
 def fewest_snapshots(
     problem: PosingProblem | InterpolationProblem, dimension: int, energy: Energy = "auto"
 ) -> int:
-    """The fewest snapshots that `reduce` accepts; a cubature is trained on them.
+    """The smallest number of snapshots that `reduce` accepts for training a cubature.
 
-    Ten for posing and two for blending, whose states are few and between known poses.
+    Ten for posing. Two for blending, since blends are few and lie between known poses.
     """
     if chosen_energy(problem, dimension, energy) != "cubature":
         return 0
@@ -71,7 +71,7 @@ def fewest_snapshots(
 def training_tolerance(
     problem: PosingProblem | InterpolationProblem, dimension: int, energy: Energy = "auto"
 ) -> float | None:
-    """The tolerance of snapshots that the energy needs; None if it leaves that to the problem.
+    """The tolerance of snapshots that the energy needs; None for the problem's own.
 
     See `posing_traits` for the reasons.
     """
@@ -83,8 +83,8 @@ def training_tolerance(
 def _quartic_pays(dimension: int) -> bool:
     """Whether a quartic is worth its cost in multiply-adds per evaluation: up to d = 48.
 
-    With the Hessian it takes three for each of d^4 / 24 coefficients; a cubature takes 18 for each
-    tet and mode.
+    With the Hessian, a quartic takes three for each of its d^4 / 24 coefficients. A cubature takes
+    18 for each tet and mode.
     """
     quartic = 3.0 * dimension**4 / 24.0
     return quartic <= EXACTNESS * 18.0 * default_tets(dimension) * dimension

@@ -65,7 +65,7 @@ class FullEnergy:
     def hessian(
         self, q: ArrayLike, *, projection: core.Projection = core.Projection.none
     ) -> FloatArray:
-        """Hessian at q, (d, d); with a projection those of the tets are positive semidefinite."""
+        """Hessian at q, (d, d); a projection makes those of the tets positive semidefinite."""
         blocks = self._blocks(np.asarray(q, np.float64), projection)
         pieces = [slice(i, i + BLOCK) for i in range(0, self.dimension, BLOCK)]
         with ThreadPoolExecutor(self.threads or None) as pool:
@@ -143,7 +143,7 @@ def full_blends(
 
 
 def not_stored(who: str) -> ValueError:
-    """The refusal of files and pages, which do not hold the energy of all tets."""
+    """The error of files and pages, which cannot hold the energy of all tets."""
     return ValueError(
         f"{who}: the model has the energy of all tets, which is for experiments; make one with "
         "reduce(..., energy='cubature') or energy='exact'"

@@ -45,10 +45,10 @@ class InterpolationModel(ReducedModel):
 
     @cached_property
     def certain_range(self) -> CertainRange | None:
-        """Weights for which the reduced energy certainly has a minimum; None: no test is known.
+        """Weights for which the reduced energy certainly has a minimum; None if no test is known.
 
-        Tested in the cubature's tets, those of the energy that sessions and pages minimise. The
-        full energy has more tets, and a smaller range: `InterpolationProblem.certain_range`.
+        The test looks at the cubature's tets, since sessions and pages minimise their energy. The
+        full energy has more tets and a smaller range: `InterpolationProblem.certain_range`.
         """
         if isinstance(self.blends, BlendedStars):
             return CertainRange.of_forms(self.blends.dirichlet_forms[:, None])

@@ -88,24 +88,25 @@ def reduce(
         Attached to the problem's tau.
     energy : "auto", "exact", "cubature" or "full", default "auto"
         exact: for St.Venant-Kirchhoff the reduced energy is a polynomial of degree four; its
-        d^4 / 24 coefficients are computed from all tets. cubature: the energies of few tets with
-        positive weights, for all materials; handles stay exact. It is trained on the snapshots.
-        full: the energy of all tets, at the cost of the mesh, for subspaces of hundreds of
-        dimensions; such models are for experiments, and are not saved or shown in pages.
-        auto: exact where the material allows it and d is at most 48, else a cubature. At d = 48 an
-        evaluation of the quartic costs d^4 / 8 multiply-adds, twice the 18 r d of a cubature with
-        the default r; exactness is worth that.
+        d^4 / 24 coefficients are computed from all tets. cubature: the energies of a few tets with
+        positive weights, for all materials, trained on the snapshots; handles stay exact. full: the
+        energy of all tets, at the cost of the mesh, for subspaces of hundreds of dimensions; such
+        models are for experiments, and are not saved or shown in pages. auto: exact where the
+        material allows it and d is at most 48, else a cubature. At d = 48 an evaluation of the
+        quartic costs d^4 / 8 multiply-adds, twice the 18 r d of a cubature with the default r;
+        exactness is worth that.
     snapshots : Snapshots, optional
-        Snapshots of the problem; recorded in the model by parameters and coordinates. A cubature
-        needs at least ten that are not at rest, or two for blending. It is as good as their forces:
-        those of settled snapshots are far from equilibrium, see `SolverOptions`.
+        Snapshots of the problem. The model records their parameters and coordinates. A cubature
+        needs at least ten that are not at rest, or two for blending. Its accuracy depends on their
+        forces: settled snapshots are far from equilibrium, see `SolverOptions`.
     include_unconverged : bool, default False
         Whether to use snapshots that did not converge; `snapshot_pca` has the same option.
     tets : int, optional
-        The most tets that a cubature may choose, r, or all tets if there are fewer. Default: 8 d
-        for posing, beyond 1000 tets 6.5 d; 15 d for blending, but at most 1000. Of a shell they are
-        triangles and hinges, by default 12 d, but at most 1500; or stars, 8 d. All stars are exact,
-        and nothing is trained: blends have them by default where 8 d is half of them.
+        The largest number r of tets that a cubature may choose, or all tets if there are fewer.
+        Default for posing: 8 d, but at most the larger of 1000 and 6.5 d. Default for blending: 15
+        d, but at most 1000. The elements of a shell are triangles and hinges, by default 12 d, but
+        at most 1500; or stars, by default 8 d. The sum over all stars is exact and needs no
+        training: it is the default for blends if 8 d is at least half of the stars.
     seed : int, default 0
         Seeds the random combinations of forces that a cubature is trained on.
     surface : EmbeddedSurface, optional
@@ -120,16 +121,18 @@ def reduce(
     -------
     PosingModel or InterpolationModel
         With an exact energy its objective equals F at tau + U q for all q, and all affine motions
-        of the handles or all weights of the poses. Bitwise the same for the same arguments. Its
-        basis is the subspace's in single precision, as in a file: saving it loses nothing.
+        of the handles or all weights of the poses. The same arguments give bitwise the same model.
+        Its basis is the subspace's, rounded to single precision as in a file, so that saving loses
+        nothing.
 
     Raises
     ------
     ValueError
         If the subspace belongs to another mesh, is not attached to the problem's tau or has a basis
-        that is not M-orthonormal, the surface belongs to another mesh, the energy is not possible,
-        snapshots are of another problem, a cubature has too few converged ones, or `tets` is given
-        without a cubature or is not between 1 and the number of tets of the mesh.
+        that is not M-orthonormal; if the surface belongs to another mesh; if the material does not
+        allow the energy; if the snapshots are of another problem, or too few of them converged for
+        a cubature; or if `tets` is given without a cubature or is not between 1 and the number of
+        tets of the mesh.
 
     Warns
     -----
@@ -154,7 +157,7 @@ def reduce(
     if snapshots is not None and not include_unconverged and not snapshots.usable.all():
         used = snapshots.select(snapshots.usable)
     _check_snapshots(problem, subspace, energy, used, 0 if snapshots is None else len(snapshots))
-    if kind != "full":  # full models are in no file
+    if kind != "full":  # full models are not saved to files
         subspace = subspace.in_single_precision()
     parameters, coordinates = training_samples(problem, subspace, used)
     record = dict(provenance or {})

@@ -36,7 +36,7 @@ class ReducedModel(ABC):
     training_parameters : (k, p), parameters of the solutions that the subspace was made from, or
         (0, p)
     training_coordinates : (k, d), coordinates of their projections, or (0, d)
-    provenance : what made it: versions, seeds, options, timings
+    provenance : how the model was made: versions, seeds, options, timings
     error_estimator : ErrorEstimator of `calibrate`, for `Session.certificate`
     """
 
@@ -57,7 +57,8 @@ class ReducedModel(ABC):
     def up(self) -> str:
         """Axis that points up in pages and pictures: `provenance["up"]`.
 
-        If it names none, that of the surface's file (`SurfaceFile.up`), or z without a file.
+        If the record names none, the axis of the surface's file (`SurfaceFile.up`), or z without a
+        file.
         """
         axis = self.provenance.get("up")
         if axis in ("x", "y", "z"):
@@ -66,7 +67,7 @@ class ReducedModel(ABC):
 
     @property
     def mirror_plane(self) -> MirrorPlane | None:
-        """The plane of `provenance["mirror"]`, {"normal", "point"}; None if it names none."""
+        """The plane of `provenance["mirror"]`, {"normal", "point"}; None without that entry."""
         record = self.provenance.get("mirror")
         try:
             return MirrorPlane(**record) if isinstance(record, dict) else None
@@ -77,9 +78,9 @@ class ReducedModel(ABC):
     def value_scale(self) -> float:
         """Unit of energy for the termination tests, as of a shear of 10 %: 0.01 mu * volume.
 
-        For moduli that differ from tet to tet, the sum over all of them. A shell bends more easily
-        than it shears: it is the energy of bending by a curvature of sqrt(2) over the diagonal.
-        Kept, since every frame takes it and a sum costs as much as the mesh is large.
+        For moduli that differ from tet to tet, the sum over all tets. A shell bends more easily
+        than it shears, so its unit is the energy of bending to a curvature of sqrt(2) over the
+        diagonal. Cached, since every frame needs it and the sum runs over the whole mesh.
         """
         mu, mesh = self.problem.material.mu, self.problem.mesh
         if isinstance(mesh, ShellMesh):
@@ -119,7 +120,7 @@ class ReducedModel(ABC):
         return save_model(self, path)
 
     def show(self, *, title: str = "", up: str | None = None, height: int = 600) -> NotebookPage:
-        """The page in which the model is posed or blended, for the end of a notebook's cell.
+        """The page in which the model is posed or blended, as the last line of a notebook cell.
 
         Parameters
         ----------
@@ -133,7 +134,8 @@ class ReducedModel(ABC):
         Warns
         -----
         UserWarning
-            If the output has more than 10 MB: not every connection to a remote kernel carries it.
+            If the output has more than 10 MB, which some connections to a remote kernel cannot
+            carry.
         """
         from ..page import NotebookPage
 

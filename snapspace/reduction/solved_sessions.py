@@ -1,4 +1,4 @@
-"""solved_sessions and what follows from them: reduced solutions at given parameters."""
+"""solved_sessions and functions based on it: reduced solutions at given parameters."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""training_samples: what a reduction learns from snapshots."""
+"""training_samples: the parameters and coordinates that a model records."""
 
 from __future__ import annotations
 

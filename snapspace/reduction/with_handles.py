@@ -15,9 +15,10 @@ from .posing_model import PosingModel
 def with_handles(model: PosingModel, problem: PosingProblem) -> PosingModel:
     """The same subspace and elastic energy with the handles of another problem.
 
-    Nothing is solved or trained: the quadric of a handle needs its rows of the basis only. So any
-    vertex can be pulled at once. The subspace knows nothing of new handles, so that frames are
-    rougher than those of a model made for them; `accurate_model(problem, start=model)` makes one.
+    Nothing is solved or trained: the quadric of a handle needs only the basis rows of its vertices.
+    So any vertex can be pulled at once. The subspace was not made for the new handles, so frames
+    are less accurate than those of a model that was; `accurate_model(problem, start=model)` makes
+    one.
 
     Parameters
     ----------
@@ -29,7 +30,7 @@ def with_handles(model: PosingModel, problem: PosingProblem) -> PosingModel:
     -------
     PosingModel
         Its handle energy is that of the problem on the subspace. It has no training samples and no
-        error estimator, since these were for other handles.
+        error estimator, since the old ones were for other handles.
 
     Raises
     ------

@@ -51,7 +51,7 @@ class RigidMotion:
 def rigid_registration(
     shape: ArrayLike, onto: ArrayLike, mass: csr_array, *, scale: bool = False
 ) -> RigidMotion:
-    """Rigid motion that brings a shape as close to another as it can, in the M-norm.
+    """The rigid motion that brings a shape as close as possible to another, in the M-norm.
 
     Parameters
     ----------
@@ -66,15 +66,15 @@ def rigid_registration(
     -------
     RigidMotion
         Minimises |scale R x + t - onto|_M over rotations R with determinant 1 and translations t
-        (and over scales > 0 if asked): a shape and its mirror image are not brought together.
-        Where several rotations are equally good, it is one of them: the identity for a shape
-        without extent; for a shape on a line, the rotation nearest to the identity.
+        (and over scales > 0 if `scale`). A reflection is never used. Where several rotations are
+        equally good, it is one of them: the identity for a shape without extent; for a shape on a
+        line, the rotation nearest to the identity.
 
     Raises
     ------
     ValueError
-        For sizes that do not agree, coordinates that are not finite, or if `scale` is asked for
-        shapes that have no extent in common.
+        For sizes that do not agree, coordinates that are not finite, or `scale` with shapes whose
+        cross covariance is zero, so that no scale is best.
 
     Notes
     -----
@@ -91,7 +91,7 @@ def rigid_registration(
 
 @single_threaded_blas
 def registered(shapes: ArrayLike, onto: ArrayLike, mass: csr_array) -> FloatArray:
-    """Shapes after the rigid motion that brings each of them closest to another in the M-norm.
+    """Shapes after the rigid motions that bring each of them closest to `onto` in the M-norm.
 
     Parameters
     ----------

@@ -16,8 +16,9 @@ ScalePolicy = Literal["auto", "match", "keep"]
 SCALE_POLICIES: tuple[ScalePolicy, ...] = ("auto", "match", "keep")
 
 #: Ratio of edge lengths, in either direction, beyond which "auto" assumes another unit of
-#: length. Posing bends a body far more than it stretches it, and the units in use are farther
-#: apart: the inch has 2.54 cm, the yard 3 feet. (Yard and metre, 1.09 apart, are the exception.)
+#: length. Posing bends a body far more than it stretches it, and common units differ by larger
+#: factors: an inch is 2.54 cm, a yard 3 feet. (Yard and metre, a factor of 1.09, are the
+#: exception.)
 UNITS_DIFFER_BEYOND = 1.5
 
 
@@ -34,10 +35,10 @@ def scale_factors(shapes: ArrayLike, cells: ArrayLike) -> FloatArray:
     Returns
     -------
     ndarray, (k,)
-        Pose i is to be multiplied by factor i. Then the median, over the edges, of length / length
-        in the first pose is one. The first factor is 1. Edges of length zero in the first pose are
-        left out. The median ignores parts that grow or shrink, if more than half of the edges keep
-        their length.
+        Multiply pose i by factor i. Then the median, over the edges, of length / length in the
+        first pose is one. The first factor is 1. Edges of length zero in the first pose are left
+        out. The median ignores parts that grow or shrink, if more than half of the edges keep their
+        length.
 
     Raises
     ------

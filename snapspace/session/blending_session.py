@@ -31,16 +31,16 @@ FARTHEST = 100.0
 class BlendingSession(Session[InterpolationModel]):
     """Shapes between the poses of a reduced model: set weights, read vertices.
 
-    Parameters and errors as for `Session`; the default tolerance is 1e-9, because without handles
-    soft modes decide.
+    Parameters and errors are as for `Session`. The default tolerance is 1e-9, because without
+    handles the soft modes determine the error.
 
     Notes
     -----
-    A jump, to weights that are nearer to a training sample than to the last frame, starts from that
-    sample or from the last frame, whichever has the lower energy: from far away a descent could end
-    in another minimum. A drag starts from the last frame, and along a straight line from the shape
-    that its last three frames predict; where it ends above the nearest sample, it is solved again
-    from there.
+    A jump goes to weights that are nearer to a training sample than to the last frame. It starts
+    from that sample or from the last frame, whichever has the lower energy: from far away a descent
+    could end in another minimum. A drag starts from the last frame or, along a straight line, from
+    the shape that its last three frames predict. If a frame ends with a higher energy than the
+    nearest sample, it is solved again from that sample.
 
     Examples
     --------
@@ -64,12 +64,12 @@ class BlendingSession(Session[InterpolationModel]):
         Parameters
         ----------
         weights : array_like, (poses,)
-            Not negative, with sum one. One-hot weights give the pose, as well as the subspace can
+            Not negative, with sum one. One-hot weights give the pose as closely as the subspace can
             represent it.
         extrapolate : bool, default False
-            Also accepts weights beyond the sampled simplex; their sum is still one. There the
-            energy may have no minimum: then the report's status is unbounded, and shape and
-            weights stay as they were. `certain` and `reach` say how far a minimum is certain.
+            Also accepts weights beyond the sampled simplex; their sum must still be one. There the
+            energy may have no minimum: then the report's status is unbounded, and shape and weights
+            stay as they were. `certain` and `reach` say where a minimum is guaranteed.
 
         Raises
         ------
@@ -106,7 +106,7 @@ class BlendingSession(Session[InterpolationModel]):
         frames : int, default 60, and for a timeline 30 a second
             Number of frames. The first has the current weights, the last is the last key.
         easing : "smooth" or "linear", default "smooth"
-            Whether each leg begins and ends slowly; the keys of a timeline have their own.
+            Whether each leg begins and ends slowly. The keys of a timeline have their own easing.
 
         Yields
         ------
@@ -116,8 +116,8 @@ class BlendingSession(Session[InterpolationModel]):
         Raises
         ------
         ValueError
-            As for `blend`, and if there are no keys, for fewer than two frames or an unknown
-            easing, a timeline of motions or an unknown pose; the shape stays as it was.
+            As for `blend`, and without keys, for fewer than two frames, an unknown easing, a
+            timeline of motions or an unknown pose; the shape stays as it was.
         """
         problem = self.model.problem
         given, shares, anew = keyed(keys, frames, easing, "interpolation")
@@ -130,7 +130,7 @@ class BlendingSession(Session[InterpolationModel]):
         return (self.blend(w, extrapolate=True) for w in path)
 
     def put(self, weights: ArrayLike, q: ArrayLike) -> None:
-        """Takes a frame that was solved elsewhere, for example in the page; nothing is solved.
+        """Adopts a frame that was solved elsewhere, for example in the page; nothing is solved.
 
         Parameters
         ----------
@@ -204,7 +204,7 @@ class BlendingSession(Session[InterpolationModel]):
         self._loop.set_weights(weights)
 
     def _solve_from(self, before: FloatArray) -> FrameReport:
-        """Solves from the last frame, which has the weights `before`, or the nearest sample."""
+        """Solves from the last frame, with the weights `before`, or from the nearest sample."""
         if not len(self.model.training_parameters):
             return self.solve()
         with np.errstate(over="ignore"):  # weights far beyond any use

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 
 #: Iterations of the polish in a thorough certificate.
 THOROUGH_ITERATIONS = 10
-#: Its tolerance, never reached, so that every sample and frame takes the same number of steps.
+#: The tolerance of that polish. It is never reached, so every sample and frame takes the same
+#: number of steps.
 NEVER = 1e-300
 
 

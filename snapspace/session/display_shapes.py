@@ -1,4 +1,4 @@
-"""DisplayShapes: shapes of a subspace for the screen, limited only by reading the basis."""
+"""DisplayShapes: shapes of a subspace for the screen, as fast as the basis can be read."""
 
 from __future__ import annotations
 

@@ -12,12 +12,12 @@ from .finite_input import finite
 class Dynamics:
     """How a body swings after the motions of its handles, or of its weights.
 
-    frequency : of the body's softest vibration, in Hz, default 2. It sets the density: a model has
-    moduli and lengths, but no unit of time
-    damping : share of the critical damping of that vibration, default 0.05. Implicit Euler damps
-    as well, by about pi * frequency * dt
+    frequency : frequency of the body's softest vibration in Hz, default 2. It sets the density,
+    since a model has moduli and lengths, but no unit of time
+    damping : damping ratio of that vibration, default 0.05. Implicit Euler adds about pi *
+    frequency * dt
     gravity : acceleration (3,) in lengths per square second, in world coordinates, default zero.
-    The body hangs at its handles; a blend, which has none, would fall
+    The body hangs from its handles; a blend has none and would fall
 
     Raises
     ------

@@ -29,7 +29,7 @@ class FrameReport:
 
     @classmethod
     def of(cls, report: Any, seconds: float) -> FrameReport:
-        """The report of a loop's solve or step, which took this time."""
+        """The report of a loop's solve or step that took `seconds`."""
         return cls(
             report.status.name,
             report.iterations,

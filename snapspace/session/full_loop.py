@@ -17,9 +17,10 @@ FloatArray = NDArray[np.float64]
 
 #: Sufficient decrease, and how often a step is halved (Nocedal & Wright, 3.1).
 DECREASE, HALVINGS = 1e-4, 30
-#: What a singular Hessian's diagonal is raised by, relative to its mean; times 16 until it helps.
+#: Shift of a singular Hessian, relative to the mean of its diagonal; it grows by 16 until it
+#: suffices.
 FIRST_SHIFT, SHIFT_GROWTH, MOST_SHIFTS = 1e-10, 16.0, 20
-#: Iterations of "bfgs" that one factor serves: about what its Hessian costs in gradients.
+#: Iterations of "bfgs" with one factor: about as many as its Hessian costs in gradients.
 KEPT = 40
 _NO_SINGLE = "Session: precision 'single' is for exact quartics; a full energy is in double"
 
@@ -39,14 +40,14 @@ class FullLoop:
     """Minimises the energy of all tets and of the handles, from the last frame.
 
     Newton's method factors a Hessian in each iteration. "bfgs" keeps a factor for `KEPT`
-    iterations, and corrects it by their steps. Where the Hessian is not positive definite, that of
-    projected tets takes its place. The tests of the end are those of the paper, sec. 6.2, as for
-    the compiled loops.
+    iterations, and corrects it by their steps. Where the Hessian is not positive definite, the sum
+    of the tets' projected Hessians takes its place. The termination tests are those of the paper,
+    sec. 6.2, as in the compiled loops.
 
     Parameters
     ----------
     energy : FullEnergy
-    projection : of the tets' Hessians, as the problem has it
+    projection : projection of the tets' Hessians, as in the problem
     single : bool; ValueError if true, since all numbers are in double precision
     """
 
@@ -164,7 +165,7 @@ class FullLoop:
     def _step(
         self, direction: FloatArray, value: float, slope: float
     ) -> tuple[float, int, float, FloatArray]:
-        """Length of a step that decreases enough, zero if none does, evaluations, and the end."""
+        """Length of a step with sufficient decrease, or zero; number of evaluations; the end."""
         length = 1.0
         for tried in range(1, HALVINGS + 1):
             after, gradient = self.value_and_gradient(self._q + length * direction)
@@ -175,7 +176,7 @@ class FullLoop:
 
 
 class FullPosingLoop(FullLoop):
-    """That of posing: set offsets, solve from the last frame."""
+    """FullLoop of posing: set offsets, solve from the last frame."""
 
     def __init__(self, model: PosingModel, *, single: bool) -> None:
         assert isinstance(model.elastic, FullEnergy)
@@ -201,7 +202,7 @@ class FullPosingLoop(FullLoop):
 
 
 class FullBlendingLoop(FullLoop):
-    """That of blending: set weights, solve from the last frame."""
+    """FullLoop of blending: set weights, solve from the last frame."""
 
     def __init__(self, model: InterpolationModel, *, single: bool) -> None:
         assert isinstance(model.blends, FullBlends)

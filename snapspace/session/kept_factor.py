@@ -11,14 +11,15 @@ from scipy.linalg import cho_solve
 FloatArray = NDArray[np.float64]
 Factor = tuple[FloatArray, bool]
 
-#: Steps that are remembered. A step costs 4 d multiplications an iteration, a gradient 6 n d.
+#: Number of stored steps. A step costs 4 d multiplications per iteration, a gradient 6 n d.
 MEMORY = 40
-#: Least cosine of a step and the change of its gradient; less would ruin the approximation.
+#: Smallest cosine between a step and the change of the gradient; smaller ones would ruin the
+#: approximation.
 LEAST_CURVATURE = 1e-8
 
 
 class KeptFactor:
-    """An approximation of the inverse Hessian: that of an earlier point, corrected by L-BFGS.
+    """An approximate inverse Hessian: that of an earlier point, corrected by L-BFGS.
 
     Where a Hessian costs as much as a hundred gradients, it pays to factor few of them (Nocedal &
     Wright, 7.2: the factor takes the place of the scaled identity).
@@ -46,7 +47,7 @@ class KeptFactor:
         return -found
 
     def learn(self, step: FloatArray, change: FloatArray) -> None:
-        """Takes a step (d,) and the change of the gradient along it, if it curves upwards."""
+        """Stores a step (d,) and the gradient's change along it, if the curvature is positive."""
         curvature = float(step @ change)
         if curvature > LEAST_CURVATURE * float(np.linalg.norm(step) * np.linalg.norm(change)):
             self._pairs.append((step, change, curvature))

@@ -12,20 +12,22 @@ from .posing_session import PosingSession
 def mirror_pose(session: PosingSession, *, plane: MirrorPlane | None = None) -> FrameReport:
     """Swaps the motions of handles left and right of the mirror plane, mirrored, and solves.
 
-    A handle across the plane gets the mirror image of its own motion. Twice is the pose itself.
+    A handle across the plane gets the mirror image of its own motion. Mirroring twice restores the
+    pose.
 
     Parameters
     ----------
     session : PosingSession
     plane : MirrorPlane, default that of the model
-        The model's is the entry "mirror" of its problem file, else that which `mirror_plane` finds
-        on its surface, in about a second: to mirror many poses, give the plane.
+        The model's plane is the entry "mirror" of its problem file. Without that entry,
+        `mirror_plane` searches for it on the model's surface, which takes about a second. To mirror
+        many poses, give the plane.
 
     Raises
     ------
     ValueError
-        For another kind of session or plane, if a handle has no counterpart (`counterparts`), if a
-        handle is at an affine map that is not rigid, and as for `mirror_plane`. The handles stay
+        For another kind of session or plane, if a handle has no counterpart (`counterparts`), if
+        the map of a handle is affine but not rigid, and as for `mirror_plane`. The handles stay
         where they are.
 
     Examples

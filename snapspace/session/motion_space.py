@@ -11,15 +11,15 @@ from ..reduction import PosingModel
 
 FloatArray = NDArray[np.float64]
 
-#: In units of the samples' spacing: motions farther away are not interpolated from the samples.
+#: In units of the samples' spacing. Motions farther from all samples are not interpolated.
 FARTHEST = 1e3
 
 
 class MotionSpace:
     """The offsets D_h of the moving handles in the metric of the handle energy.
 
-    The distance between two motions does not depend on the parameters that describe them. Its
-    square is the handle energy of one motion where the shape follows the other.
+    The distance between two motions does not depend on their parametrisation. Its square is the
+    handle energy of one motion at a shape that follows the other.
 
     Parameters
     ----------

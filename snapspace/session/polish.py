@@ -54,7 +54,7 @@ class Polished:
 
 
 class Polisher:
-    """Full-space iterations for one subspace; shared preparations are done once.
+    """Full-space iterations for one subspace. Shared preparations are done once.
 
     This is the L-BFGS of the snapshots on one shape, seeded with A^-1 + U H^-1 U^T. A is the scalar
     factor's matrix, which overestimates the stiffness of soft and smooth directions. H is the
@@ -62,13 +62,13 @@ class Polisher:
     additive Schwarz: Dryja & Widlund 1990; a fixed inverse as the seed: Liu, Bouaziz, Kavan 2017].
     A reduced solution is in equilibrium along U, but nearly all of its error is still along U:
     relaxation outside the subspace changes the equilibrium within it. On the Dragon ten iterations
-    with this seed do as much as sixteen with A^-1 alone, and between poses, where no handles hold
-    the shape, as much as more than thirty.
+    with this seed do as much as sixteen with A^-1 alone. Between poses, where no handles hold the
+    shape, they do as much as more than thirty.
 
-    Blends of surfaces that are as rigid as possible have the rigid motions of patches in the place
-    of U: these span soft deformations that no sample has. Those of solids do not: their patches
-    know only a sample of the tets, and ten iterations leave 0.88 of the error of a Lion's frame
-    instead of 0.76, and 0.58 of a lizard's instead of 0.38.
+    Blends of as-rigid-as-possible surfaces use the rigid motions of patches instead of U, since
+    these span soft deformations that no sample has. Blends of solids keep U: the patches of a solid
+    know only a sample of its tets. With them, ten iterations leave 0.88 of the error of a Lion's
+    frame instead of 0.76, and 0.58 of a lizard's instead of 0.38.
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ class Polisher:
         q : reduced coordinates, (d,)
         inputs : inputs of the problem's system, (input_size,)
         hessian : Hessian of the reduced objective at q, (d, d); None if it is not needed
-        place : moves vertices (n, 3) to where the session shows them
+        place : function that moves vertices (n, 3) to where the session shows them
         iterations, tolerance, should_stop : as for `Session.polish`
         """
         begin = time.perf_counter()
@@ -164,7 +164,7 @@ class Polisher:
 
 
 def relative(distance: float, size: float) -> float:
-    """distance / size. For the shape tau itself, of size zero, 0 without a distance, else inf."""
+    """distance / size. If the size is zero, as for tau itself: 0 for a zero distance, else inf."""
     if size > 0:
         return distance / size
     return math.inf if distance > 0 else 0.0

@@ -36,7 +36,7 @@ class PosingSession(Session[PosingModel]):
     Notes
     -----
     A drag starts from the last frame's shape. A jump, longer than the spacing of the training
-    samples, starts from a shape interpolated between them, or from the last one if that is lower.
+    samples, starts from the lower in energy of the last shape and one interpolated between them.
     """
 
     _maps: FloatArray  # (h, 3, 4), maps of world positions
@@ -57,8 +57,8 @@ class PosingSession(Session[PosingModel]):
     ) -> FrameReport:
         """Moves a handle rigidly from rest, about its centroid, and solves.
 
-        The motion is absolute: moving twice to the same place is moving once. The first handle may
-        move as well: the same rigid motion of all handles carries the shape along rigidly.
+        The motion is absolute: a second call replaces the first. The first handle may move as well;
+        a rigid motion that all handles share carries the whole shape along.
 
         Parameters
         ----------
@@ -73,9 +73,9 @@ class PosingSession(Session[PosingModel]):
         ------
         ValueError
             For an unknown handle, `euler` and `rotation` together, a matrix that is not a rotation,
-            values that are not finite, or a wrong number of them. The message names handle and
-            entry; handles and shape stay as they were. They also do if the motion is so large that
-            the energy overflows; then the report's status is not_finite.
+            values that are not finite, or a wrong number of them. The message names the handle and
+            the entry, and handles and shape stay as they were. They also stay if the motion is so
+            large that the energy overflows; then the report's status is not_finite.
         """
         if rotation is not None and euler is not None:
             raise ValueError(f"move: '{handle}' has both euler and rotation; give one of them")
@@ -105,28 +105,28 @@ class PosingSession(Session[PosingModel]):
         frames: int | None = None,
         easing: str = "smooth",
     ) -> Iterator[FrameReport]:
-        """Moves the handles from where they are through keys, frame by frame.
+        """Moves the handles from their current places through keys, frame by frame.
 
-        Centroids move straight, and handles turn at an even rate about one axis. `vertices` is the
-        shape of each frame; `write_animation` writes them as files, GIF or MP4.
+        Between keys, centroids move straight, and each handle turns at a constant rate about one
+        axis. `vertices` is each frame's shape; `write_animation` writes files, GIF or MP4.
 
         Parameters
         ----------
         keys : sequence of mappings as for `move_all`, or a Timeline
-            A handle that a key does not name stays where it was at the previous key. A timeline
-            begins with its first key, with all other handles at rest.
+            A handle that a key does not name stays where it was at the previous key, or at rest in
+            the first key of a timeline.
         frames : int, default 60, and for a timeline 30 a second
             The first has the handles where they are now, and the last is the last key.
         easing : "smooth" or "linear", default "smooth"
-            Whether each leg begins and ends slowly; the keys of a timeline have their own.
+            Whether each leg begins and ends slowly. The keys of a timeline have their own easing.
 
         Yields a FrameReport of each frame, once it is solved.
 
         Raises
         ------
         ValueError
-            As for `move_all`, without keys, for fewer than two frames or an unknown easing, if a
-            handle is at an affine map that is not rigid, or for a timeline of weights.
+            As for `move_all`, without keys, for fewer than two frames, an unknown easing or a
+            timeline of weights, or if the map of a handle is affine but not rigid.
 
         Examples
         --------
@@ -173,7 +173,7 @@ class PosingSession(Session[PosingModel]):
         return self._solve_at(world_maps(offsets, self.model.problem.centroids), offsets)
 
     def put(self, motions: Sequence[tuple[ArrayLike, ArrayLike]], q: ArrayLike) -> None:
-        """Takes a frame that was solved elsewhere, for example in the page; nothing is solved.
+        """Adopts a frame that was solved elsewhere, for example in the page; nothing is solved.
 
         Parameters
         ----------
@@ -195,7 +195,7 @@ class PosingSession(Session[PosingModel]):
 
     @property
     def motions(self) -> dict[str, tuple[FloatArray, FloatArray]]:
-        """Each handle's motion from rest, as `move_all` takes it.
+        """Each handle's motion from rest, in the form that `move_all` takes.
 
         A rotation (3, 3), any matrix after `move_affine`, and a translation of the centroid (3,).
         """
@@ -213,7 +213,7 @@ class PosingSession(Session[PosingModel]):
         """Names of the handles outside the box of motions in which the model was sampled.
 
         There the reduced solution may be far from the full one. Motions are relative to the first
-        handle; affine maps that are not rigid are outside.
+        handle. Affine maps that are not rigid count as outside.
         """
         domain, names = self.model.problem.domain, self.model.problem.handles.names
         moving = zip(names[1:], domain.bounds, self._offsets[1:], strict=True)

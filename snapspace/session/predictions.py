@@ -1,4 +1,4 @@
-"""predicted_solutions: what a reduced model says of samples before they are solved."""
+"""predicted_solutions: a reduced model's solutions for samples that are not solved yet."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from ..snapshots import Predictions, positive_inverse
 
 FloatArray = NDArray[np.float64]
 
-#: Hessians of samples are taken to be so much stiffer than the model's. A cubature misses the few
-#: elements that are nearly flat or turned over. A seed that is too soft takes steps that are too
-#: long: blends of a centaur's surface, d = 57, took 123 evaluations with 1, 74 with 2 and 54 with
-#: 4, as many as with the exact Hessian; on the Lion 30.
+#: Factor by which Hessians of samples are assumed to be stiffer than the model's. A cubature misses
+#: the few elements that are nearly flat or inverted. A seed that is too soft takes steps that are
+#: too long: blends of a centaur's surface, d = 57, took 123 evaluations with a factor of 1, 74 with
+#: 2 and 54 with 4, as many as with the exact Hessian; on the Lion 30.
 STIFFER = 4.0
 #: Tolerance of a prediction with Hessians: full solves begin in the same coordinates, with the same
 #: Hessians.
@@ -37,21 +37,21 @@ def predicted_solutions(
 ) -> Predictions:
     """The model's solutions for parameters (k, p), for `solve_snapshots`.
 
-    A prediction does not depend on the others. With Hessians it has a tolerance of 1e-7, and
-    without them that of sessions.
+    A prediction does not depend on the others. Its tolerance is 1e-7 with Hessians, and that of
+    sessions without.
 
     Parameters
     ----------
     model : PosingModel or InterpolationModel
     parameters : (k, p)
     hessians : bool, optional
-        Whether to predict Hessians as well. They pay for motions that take more than 110
-        evaluations. Default: yes, except for blends, which gain nothing by them.
+        Whether to predict Hessians as well. They pay off for motions that take more than 110
+        evaluations. Default: yes, except for blends, which gain nothing.
 
     Raises
     ------
     ValueError
-        For something else than a model, or parameters of another shape.
+        For something other than a model, or parameters of another shape.
     """
     check_model(model, "predicted_solutions")
     parameters = as_rows("predicted_solutions", "parameters", parameters)

@@ -1,4 +1,4 @@
-"""SampleStarts: where a solve starts after a jump, interpolated from the training solutions."""
+"""SampleStarts: starting points after a jump, interpolated from the training solutions."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class SampleStarts:
 
     @cached_property
     def _weights(self) -> FloatArray:
-        """Weights of functions and constant, (k + 1, d); a drag without jumps needs none."""
+        """Weights of the functions and the constant, (k + 1, d); computed at the first jump."""
         distances, k = self._motions.distances, len(self._coordinates)
         matrix = np.ones((k + 1, k + 1))
         matrix[:k, :k] = _NUGGET * distances.max() * np.eye(k) - distances
@@ -49,7 +49,7 @@ class SampleStarts:
         return q
 
     def after_jump(self, offsets: FloatArray, loop: Any) -> tuple[str, FloatArray]:
-        """Name and coordinates (d,) of the start: interpolated, or the loop's if those are lower.
+        """Name and coordinates (d,) of the start: interpolated, or the loop's if lower in energy.
 
         From rest alone a jump may end in a higher minimum, even with stable neo-Hookean: one of 20
         poses of the Elephant does. More starts, such as the nearest samples, find nothing lower

@@ -1,4 +1,4 @@
-"""SampleValues: blended energies of training samples, which a drag compares its frames with."""
+"""SampleValues: blended energies of training samples, for comparison with the frames of a drag."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ FloatArray = NDArray[np.float64]
 class SampleValues:
     """The reduced energy of training samples for any weights of the poses.
 
-    It is linear in the weights, so each sample is evaluated only once for every pose.
+    The energy is linear in the weights, so each sample is evaluated only once for every pose.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class SampleValues:
         return dimension
 
     def __call__(self, sample: int, weights: FloatArray) -> float:
-        """Energy of a sample; the loop must have these weights (poses,), and keeps them."""
+        """Energy of a sample. The loop must have these weights (poses,), and keeps them."""
         own, used = self._of_poses[sample], weights != 0.0
         missing = np.flatnonzero(used & np.isnan(own))
         for pose in missing:

@@ -28,7 +28,7 @@ class Session(TimeSteps[Model], NotPickled, ABC):
     """Base class of the sessions of all problems.
 
     `PosingSession` moves handles, `BlendingSession` sets weights; `model.session()` makes either.
-    Each change solves the reduced problem from the last frame's shape.
+    Each change solves the reduced problem, starting from the last frame's shape.
 
     Parameters
     ----------
@@ -39,10 +39,10 @@ class Session(TimeSteps[Model], NotPickled, ABC):
     max_iterations, max_evaluations : int, default 300 and 500
         Bounds on the work of one frame: steps, and evaluations of the energy.
     minimizer : "newton" or "bfgs", default "newton", but "bfgs" for a cubature
-        Newton's method with the exact Hessian, shifted where that is not positive definite; or
-        the paper's BFGS, with the inverse Hessian at tau as the first approximation (sec. 6.2),
-        or, where the energy is a cubature, that of the last frame. With the energy of all tets,
-        it begins with the Hessian where it starts, and takes another after 40 iterations.
+        Newton's method with the exact Hessian, shifted where that is not positive definite; or the
+        paper's BFGS, whose first approximation is the inverse Hessian at tau (sec. 6.2), or that of
+        the last frame if the energy is a cubature. With the energy of all tets, BFGS begins with
+        the Hessian at its start, and computes another after 40 iterations.
     precision : "double" or "single", default "double"
         Precision of the stored coefficients. Single takes half of the memory, and less time where
         the coefficients do not fit into the second-level cache (d = 60 and more). Each coefficient
@@ -85,9 +85,9 @@ class Session(TimeSteps[Model], NotPickled, ABC):
     def dimension(self) -> int:
         """Number of coordinates that are solved for: at first all of the model's.
 
-        Fewer are faster and less accurate, as with `model.leading(dimension)`. Setting it keeps the
-        leading coordinates of the shape; added coordinates are zero until the next solve.
-        ValueError unless it is between 1 and the model's dimension.
+        A smaller dimension is faster and less accurate, as with `model.leading(dimension)`. A new
+        dimension keeps the leading coordinates of the shape; added coordinates are zero until the
+        next solve. ValueError unless it is between 1 and the model's dimension.
         """
         dimension: int = self._loop.dimension
         return dimension
@@ -110,7 +110,7 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         return q
 
     def hessian(self) -> FloatArray:
-        """Hessian (d, d) of the reduced objective at the current shape, for its parameters."""
+        """Hessian (d, d) of the reduced objective at the current shape and parameters."""
         hessian: FloatArray = self._loop.hessian(self.q)
         return hessian
 
@@ -148,10 +148,10 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         tolerance: float | None = None,
         should_stop: Callable[[], bool] | None = None,
     ) -> Polished:
-        """Improves the current shape by a few iterations in the full space, as after a drag.
+        """Improves the current shape by a few iterations in the full space, such as after a drag.
 
-        The session does not change: its q, `vertices` and next frames are those of the subspace.
-        Only the result has the improved shape.
+        The session does not change: its q, `vertices` and next frames stay in the subspace. Only
+        the result has the improved shape.
 
         Parameters
         ----------
@@ -163,8 +163,8 @@ class Session(TimeSteps[Model], NotPickled, ABC):
             Converged when twice the decrease that the solver's model predicts is below this share
             of the objective. Default: that of the problem's snapshots.
         should_stop : callable() -> bool, optional
-            Called about ten times a second. Once it returns True, the result has the best shape so
-            far and the status cancelled.
+            Called about ten times a second. Once it returns True, iterations stop: the result has
+            the best shape so far and the status cancelled.
 
         Returns
         -------
@@ -173,8 +173,8 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         Raises
         ------
         ValueError
-            For a number of iterations that is not a whole number from 0 on, a tolerance that is
-            not positive, or a `should_stop` that is no function.
+            For a number of iterations that is negative or not a whole number, a tolerance that is
+            not positive, or a `should_stop` that is not a function.
         KeyboardInterrupt
             On Ctrl-C, within the time of one iteration.
 
@@ -225,17 +225,17 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         Raises
         ------
         ValueError
-            If the confidence is not between 0 and 1, if the model is not calibrated, or was
-            calibrated for another dimension, or if the confidence needs more samples than it was
-            calibrated with; the message names the cure.
+            If the confidence is not between 0 and 1, if the model is not calibrated or was
+            calibrated for another dimension, or if the confidence needs more samples than the
+            calibration had. The message names the cure.
         """
         return certify(self, confidence=confidence, thorough=thorough)
 
     def residual(self, sample: ResidualSample) -> float:
         """Norm of the full objective's residual at the current shape, from a few vertices.
 
-        It estimates sqrt(g^T D^-1 g), see `ResidualSample`. Except for the first call with a
-        sample, the cost does not grow with the mesh.
+        It estimates sqrt(g^T D^-1 g), see `ResidualSample`. After the first call with a sample, the
+        cost does not grow with the mesh.
         """
         if self._probe is None or self._probe[0] is not sample:
             model = self.model
@@ -245,11 +245,11 @@ class Session(TimeSteps[Model], NotPickled, ABC):
     def solve_anew(self) -> FrameReport:
         """Solves from the current shape, from tau, and from the best samples.
 
-        A drag follows one minimum; far from rest there may be others. This takes the lowest
-        minimum that the starts lead to, and the report's `start` names its start: "last frame"
-        unless another minimum is lower than that of the drag by ten times what the tolerance
-        resolves. The best samples are the one of the lowest energy and, for posing, the shape from
-        which a jump starts. It costs about ten to fifty frames.
+        A drag follows one minimum; far from rest there may be others. `solve_anew` takes the lowest
+        minimum that the starts lead to. The report's `start` names its start: "last frame" unless
+        another minimum is lower than that of the drag by ten times what the tolerance resolves. The
+        best samples are the one with the lowest energy and, for posing, the shape from which a jump
+        starts. The cost is that of about ten to fifty frames.
         """
         return self._lowest_of([("last frame", self.q), *self._known_starts()])
 

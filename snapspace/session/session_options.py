@@ -12,7 +12,7 @@ PRECISIONS = ("double", "single")
 def check_options(
     tolerance: float, max_iterations: int, max_evaluations: int, minimizer: str, precision: str
 ) -> None:
-    """ValueError for an option that a session does not take."""
+    """Raises a ValueError for an invalid option."""
     if not is_number(tolerance):
         raise wrong_type("Session", "tolerance", tolerance, "give a positive number")
     for name, count in (("max_iterations", max_iterations), ("max_evaluations", max_evaluations)):

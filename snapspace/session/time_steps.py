@@ -48,9 +48,9 @@ class TimeSteps(ABC, Generic[Model]):
 
     The basis is M-orthonormal, so that a step minimises F(q) + density / (2 dt^2) |q - target|^2,
     where `target` has the coordinates that the body would reach without forces (Martin et al. 2011,
-    Example-based elastic materials, sec. 4). It is stable for every dt. Where the handles rest, a
+    Example-based elastic materials, sec. 4). It is stable for every dt. While the handles rest, a
     step never increases the mechanical energy: if a nonlinear energy would let it grow, the new
-    velocity is shortened.
+    velocity is reduced.
     """
 
     model: Model
@@ -90,20 +90,20 @@ class TimeSteps(ABC, Generic[Model]):
     def mechanical_energy(self) -> float:
         """Reduced objective with the energies of motion and gravity.
 
-        In steps without a motion of handles, or a change of weights, it never grows.
+        It never grows in steps in which handles and weights stay.
         """
         value, _ = self._loop.value_and_gradient(self._loop.q)
         return float(value) + self._kinetic(self._moving()) - self._fall(self._loop.q)
 
     def step(self, dt: float, target: Any = None) -> FrameReport:
-        """Moves time on by dt: the body swings after its handles, or after its weights.
+        """Advances time by dt: the body swings after its handles, or after its weights.
 
         Parameters
         ----------
         dt : float
             Seconds, such as 1 / 60. Longer steps damp more.
         target : optional
-            Where the handles or weights go in this time, as for `move_all` or `blend`. Default:
+            Where the handles or weights go during the step, as for `move_all` or `blend`. Default:
             they stay.
 
         Returns
@@ -115,13 +115,13 @@ class TimeSteps(ABC, Generic[Model]):
         ------
         ValueError
             For a dt that is not positive and finite, as for `move_all` or `blend`, or if the model
-            has the energy of all tets, which knows no steps. The shape stays as it was. It also
-            does if the energy overflows; then the report's status is not_finite.
+            has the energy of all tets, which has no steps in time. The shape stays as it was. It
+            also stays if the energy overflows; then the report's status is not_finite.
 
         Notes
         -----
-        A body starts at rest from any frame that was not a step, such as after `move` or `reset`.
-        The first handle's motion counts: a body that is carried along lags behind.
+        After any frame that was not a step, such as one of `move` or `reset`, the body is at rest.
+        The first handle's motion counts as well: a body that is carried along lags behind.
 
         Examples
         --------
@@ -147,7 +147,7 @@ class TimeSteps(ABC, Generic[Model]):
 
     @abstractmethod
     def _aim(self, target: Any) -> Callable[[], None]:
-        """Sets handles or weights, None for the present ones; a function that sets the old ones."""
+        """Sets handles or weights (None keeps them); returns a function that restores them."""
 
     @abstractmethod
     def _frame(self) -> FloatArray:
@@ -170,7 +170,7 @@ class TimeSteps(ABC, Generic[Model]):
         return self._known_softest[1]
 
     def _moving(self) -> Movement:
-        """The movement up to now; none if the shape is not that of the last step."""
+        """The movement up to now; without velocity if the shape is not that of the last step."""
         q, frame, last = self._loop.q, self._frame(), self._movement
         if last and np.array_equal(last.q, q) and np.array_equal(last.frame, frame):
             return last
@@ -218,7 +218,7 @@ class TimeSteps(ABC, Generic[Model]):
         return 0.5 * self.density * float(movement.velocity @ movement.velocity)
 
     def _limit(self, last: Movement, before: float, after: float) -> None:
-        """Shortens the velocity if the mechanical energy would grow."""
+        """Reduces the velocity if the mechanical energy would grow."""
         new = self._movement
         assert new is not None
         frames = (last.frame_before, last.frame, new.frame)

@@ -40,10 +40,11 @@ def checked_frames(frames: int) -> int:
 def keyed(
     keys: Sequence[Any] | Timeline, frames: int | None, easing: str, kind: str
 ) -> tuple[list[Any], Iterator[tuple[int, float]], bool]:
-    """States of keys, `key_shares` of a path through them, and whether it begins at the first.
+    """States of keys, `key_shares` of a path through them, and whether it begins at the first key.
 
-    A timeline does, and has 30 frames a second by default; other keys are led to from where the
-    session is, in 60 frames. ValueError as for `path_shares`, and for a timeline of another kind.
+    A timeline does, and has 30 frames a second by default. A path through other keys begins at the
+    session's current state, and has 60 frames. ValueError as for `path_shares`, and for a timeline
+    of another kind.
     """
     if not isinstance(keys, Timeline):
         cure = "give a list of states, such as [{handle: motion}] or [weights], or a Timeline"
@@ -77,7 +78,7 @@ def key_shares(frames: int, keys: int, easing: str) -> Iterator[tuple[int, float
 
 
 def between_rows(keys: FloatArray, shares: Iterable[tuple[int, float]]) -> Iterator[FloatArray]:
-    """Rows on the straight lines between the rows of keys (k, p), for shares as of `key_shares`."""
+    """Rows on the straight lines between the rows of keys (k, p), for shares from `key_shares`."""
     for key, share in shares:
         row = keys[key]
         yield row if share == 0.0 else (1.0 - share) * row + share * keys[key + 1]
@@ -86,7 +87,7 @@ def between_rows(keys: FloatArray, shares: Iterable[tuple[int, float]]) -> Itera
 def between_maps(
     keys: FloatArray, centers: FloatArray, shares: Iterable[tuple[int, float]]
 ) -> Iterator[FloatArray]:
-    """Rigid maps (h, 3, 4) on the path through keys (k, h, 3, 4), for shares as of `key_shares`.
+    """Rigid maps (h, 3, 4) on the path through keys (k, h, 3, 4), for shares from `key_shares`.
 
     On each leg a center moves straight, and its handle turns about one axis at a constant rate, by
     the smaller of the two angles.

@@ -26,8 +26,8 @@ class AffineSubspace:
     mass : (n, n) scalar mass matrix M of the reference shape
     snapshot_energies : (k,) squared M-norm of all snapshots along each column, and the remainder
     beyond the last column. For every d, the sum of the entries beyond d is the squared error of the
-    first d columns. For a PCA in M they are eigenvalues of the Gram matrix. None for a basis that
-    is not from snapshots
+    first d columns. For a PCA in M the entries are eigenvalues of the Gram matrix. None for a basis
+    that was not made from snapshots
     """
 
     tau: FloatArray
@@ -49,7 +49,7 @@ class AffineSubspace:
     def energy_fraction(self) -> float | None:
         """Share of the snapshots' squared M-norm within the subspace (paper, sec. 5.2).
 
-        None for a basis that is not from snapshots.
+        None for a basis that was not made from snapshots.
         """
         if self.snapshot_energies is None:
             return None
@@ -65,7 +65,7 @@ class AffineSubspace:
         return AffineSubspace(self.tau, basis, self.mass, self.snapshot_energies)
 
     def in_single_precision(self) -> AffineSubspace:
-        """The same with the basis rounded to single precision, so that files store it without loss.
+        """The subspace with its basis rounded to single precision, which files store without loss.
 
         Its columns are M-orthonormal to about 1e-7, and shapes change by about 1e-7 of their
         displacements.
@@ -118,8 +118,8 @@ class AffineSubspace:
     def shapes(self, coordinates: ArrayLike) -> FloatArray:
         """tau + U q, (k, 3n), for coordinates (k, d).
 
-        A shape does not depend on the others, and equals that of `shape` to rounding. The basis is
-        read once, not once for each shape. ValueError for an array of another shape.
+        A shape does not depend on the others, and equals the result of `shape` up to rounding. The
+        basis is read once, not once for each shape. ValueError for an array of another shape.
         """
         rows = as_numbers("AffineSubspace.shapes", "coordinates", coordinates)
         if rows.ndim != 2 or rows.shape[1] != self.dimension:
@@ -140,7 +140,7 @@ class AffineSubspace:
 
 
 def check_subspace(subspace: object, who: str) -> None:
-    """ValueError of `who` for something else than a subspace, such as a basis."""
+    """Raises a ValueError in the name of `who` for anything but a subspace, such as a basis."""
     cure = "give that of snapshot_pca or affine_subspace"
     require_type(who, "subspace", subspace, AffineSubspace, cure)
 

@@ -18,8 +18,9 @@ FloatArray = NDArray[np.float64]
 #: Rozloznik, van den Eshof 2005, "Rounding error analysis of the classical Gram-Schmidt
 #: orthogonalization process").
 _ROUNDS = 2
-#: Directions that are made orthogonal to all earlier ones together, by products of matrices: one at
-#: a time, they take twice as long for d = 384, since all earlier ones are read for each.
+#: Number of directions that are made orthogonal to all earlier ones together, by products of
+#: matrices. One at a time, they take twice as long for d = 384, since all earlier ones are read for
+#: each.
 _BLOCK = 32
 #: A direction that loses more than this within its block is made orthogonal to all once more.
 _CANCELS = 0.1
@@ -33,10 +34,10 @@ def affine_subspace(
     nested: bool = True,
     rtol: float = 1e-10,
 ) -> AffineSubspace:
-    """The affine subspace through a problem's tau that given displacement directions span.
+    """The affine subspace through a problem's tau that is spanned by given displacements.
 
-    It is for a basis of your own: vibration modes, biharmonic coordinates, handle responses. The
-    directions are made orthonormal in the mass matrix of tau, in their order.
+    Use it for a basis of your own: vibration modes, biharmonic coordinates, handle responses. The
+    directions are made M-orthonormal in their order, with the mass matrix M of tau.
 
     Parameters
     ----------
@@ -44,22 +45,22 @@ def affine_subspace(
         One displacement x0 y0 z0 x1 ... per column, of any length.
     problem : Problem
     nested : bool, default True
-        Every leading part of the basis spans the leading part of the directions, so that a model
-        can be used with fewer dimensions; directions must be independent. With False, directions
-        that depend on earlier ones are dropped.
+        If True, the first k columns of the basis span the first k directions for every k, so that a
+        model can be used with fewer dimensions; the directions must be independent. If False,
+        directions that depend on earlier ones are dropped.
     rtol : float, default 1e-10
         A direction depends on earlier ones if less than this share of its M-norm is left.
 
     Returns
     -------
     AffineSubspace
-        It has k dimensions, or fewer if not nested; U^T M U = I to rounding. It has no energies.
+        It has k dimensions, or fewer if not nested, and no energies. U^T M U = I up to rounding.
 
     Raises
     ------
     ValueError
-        For directions of a wrong shape, if all are zero, if one is not finite or, if nested,
-        depends on earlier ones, or for an rtol that is not in (0, 1).
+        For directions of a wrong shape, if all are zero, if one is not finite, if one depends on
+        earlier ones although `nested` is True, or for an rtol that is not in (0, 1).
     """
     require_problem(problem, "affine_subspace")
     if not (is_number(rtol) and 0 < rtol < 1):

@@ -12,14 +12,14 @@ from ..problem import PosingProblem
 
 FloatArray = NDArray[np.float64]
 
-#: Chosen on five problems, where with 100 some errors still grow with d, and tested on seven others
-#: (docs/notes/basis-order.md).
+#: Chosen on five problems, and tested on seven others (docs/notes/basis-order.md). With 100, some
+#: errors on the five still grow with d.
 HANDLE_WEIGHT = 1000.0
 
 
 @single_threaded_blas
 def handle_products(problem: PosingProblem, displacements: DisplacementRows) -> FloatArray:
-    """Products d_i^T M_h d_j of displacements (k, 3n): (k, k).
+    """The matrix (k, k) of products d_i^T M_h d_j of displacements (k, 3n).
 
     M_h is the lumped mass at the vertices of handles, and zero elsewhere. One block of columns is
     in memory at a time.
@@ -37,7 +37,7 @@ def handle_products(problem: PosingProblem, displacements: DisplacementRows) -> 
 
 
 def check_handle_weight(weight: float, *, who: str) -> None:
-    """ValueError for a weight that is no number, negative or not finite."""
+    """ValueError for a weight that is not a number, negative or not finite."""
     if not (is_finite(weight) and weight >= 0):
         raise ValueError(
             f"{who}: handle_weight is {shown(weight)}, but must be finite and not negative"

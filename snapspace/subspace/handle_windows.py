@@ -1,4 +1,4 @@
-"""handle_windows: how much each vertex follows each handle."""
+"""handle_windows: smooth weights that measure how much each vertex follows each handle."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ..problem import PosingProblem, require_posing_problem
 
 FloatArray = NDArray[np.float64]
 
-#: The motion whose response is measured, relative to the diagonal: so small that it is linear.
+#: Length of the translations, relative to the diagonal: so small that the response is linear.
 SMALL = 1e-4
 
 
@@ -26,15 +26,16 @@ def handle_windows(problem: PosingProblem) -> FloatArray:
     Returns
     -------
     ndarray, (h, n)
-        The mean, over the three axes, of a vertex's displacement along a small translation of a
-        handle, as a share of it, in the linear response of the rest shape. It is nearly one on the
-        handle, nearly zero on the others, and rarely outside of [0, 1] by more than 0.01. The first
-        row is that of the fixed handle, what the others leave of one.
+        One row per handle: the displacement of each vertex along a small translation of the handle,
+        as a share of that translation, averaged over the three axes. Displacements are the linear
+        response of the rest shape. A weight is nearly one on its handle, nearly zero on the others,
+        and rarely outside [0, 1] by more than 0.01. The first row belongs to the fixed handle: one
+        minus the sum of the other rows.
 
     Raises
     ------
     ValueError
-        For something else than a PosingProblem.
+        For something other than a PosingProblem.
     """
     require_posing_problem(problem, "handle_windows")
     moving = len(problem.handles) - 1

@@ -18,8 +18,8 @@ _PROBES = 8
 def check_orthonormal(subspace: AffineSubspace, *, who: str) -> None:
     """Raises a ValueError in the name of `who` unless U is (3n, d), finite and M-orthonormal.
 
-    U^T M U is applied to eight random combinations, always the same ones, which costs eight
-    products with U instead of d. A deviation is almost never orthogonal to all of them.
+    The check applies U^T M U to eight random vectors, always the same ones, which costs eight
+    products with U instead of d. A deviation from the identity is almost never zero on all of them.
     """
     n, (rows, d) = subspace.mass.shape[0], subspace.basis.shape
     if rows != 3 * n or rows != subspace.tau.size or not d:

@@ -34,23 +34,24 @@ def snapshot_pca(
     handle_weight: float = HANDLE_WEIGHT,
     gram: SnapshotGram | None = None,
 ) -> AffineSubspace:
-    """Subspace through tau that fits the snapshots best (paper, sec. 5), above all their handles.
+    """The subspace through tau that fits the snapshots best (paper, sec. 5), above all at handles.
 
     The fit is best in the norm of the mass M plus `handle_weight` times the mass of the handles'
-    vertices. With few dimensions, the error at the handles is small in M but stiff: a reduced solve
-    distorts the rest of the shape to follow the handles, and its error can grow with d.
-    Interpolation problems have no handles, and the norm is that of M.
+    vertices. The weight is large because handles are stiff: where few dimensions cannot represent a
+    handle, a reduced solve distorts the rest of the shape to follow it, and the error can grow with
+    d although the error at the handle is small in M. Interpolation problems have no handles, and
+    use the norm of M.
 
     The fit uses converged and carried snapshots, see `Snapshots.usable`, and the solutions that the
-    problem knows without solving, the poses of an interpolation. Memory holds the basis and
-    blocks; the snapshots stay where they are.
+    problem knows without solving, the poses of an interpolation. Snapshots are read in blocks, so
+    memory holds only the basis and a block.
 
     Parameters
     ----------
     snapshots : Snapshots
     dimension, energy_fraction : int, float in (0, 1]
-        Give one: d, or the share of the snapshots' squared M-norm that the subspace must reach, for
-        the smallest such d.
+        Give exactly one: d, or the share of the snapshots' squared M-norm that the subspace must
+        reach. The share selects the smallest d that reaches it.
     lumped : bool, default False
         Diagonal instead of consistent mass matrix.
     include_unconverged : bool, default False
@@ -59,20 +60,22 @@ def snapshot_pca(
         Not negative; 0 is the paper's PCA in M.
     gram : SnapshotGram, optional
         A Gram matrix of the problem, with the same lumping, to which all snapshots were added in
-        order. Default: that of the snapshots; computed here if they have none or masses are lumped.
+        order. Default: the one that the snapshots have. It is computed here if they have none or if
+        masses are lumped.
 
     Returns
     -------
     AffineSubspace
-        U^T M U = I to rounding. The bases are nested. The squared errors of the snapshots add up
-        to `snapshot_energies` beyond d. Signs are fixed: the largest entry of a column is positive.
+        U^T M U = I up to rounding. Bases are nested. For every d, the squared error of the
+        snapshots is the sum of `snapshot_energies` beyond d. Signs are fixed: the entry of a column
+        that is largest in absolute value is positive.
 
     Raises
     ------
     ValueError
-        Unless exactly one of dimension and energy_fraction is given, if the dimension exceeds the
-        number of independent snapshots, if no snapshot is usable, if the weight is negative or not
-        finite, or if the Gram matrix is of other snapshots.
+        Unless exactly one of dimension and energy_fraction is given; if the dimension exceeds the
+        number of independent snapshots, no snapshot is usable, the weight is negative or not
+        finite, or the Gram matrix is of other snapshots.
     """
     if not hasattr(snapshots, "usable"):  # this package knows no Snapshots
         cure = "give those of solve_snapshots; pca takes an array of shapes (k, 3n)"
@@ -101,8 +104,8 @@ def snapshot_pca(
 def spanned_dimension(snapshots: Snapshots) -> int:
     """The largest dimension of `snapshot_pca`: independent directions of usable snapshots.
 
-    Nearly equal to their number, except where snapshots depend on one parameter: those between two
-    poses lie near a curve, and 34 of two Lions span 23 dimensions.
+    It nearly equals the number of snapshots, unless they depend on one parameter only. Snapshots
+    between two poses lie near a curve: 34 between two Lions span 23 dimensions.
 
     Raises
     ------

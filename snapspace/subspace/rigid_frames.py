@@ -1,4 +1,4 @@
-"""RigidFrames: the shapes of a subspace, seen from a frame that has moved rigidly."""
+"""RigidFrames: shapes of a subspace in a frame that has moved rigidly."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ PAIRS = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
 
 
 class RigidFrames:
-    """M-projections of rigidly moved shapes R (tau + U q) + t, at a cost without the mesh.
+    """M-projections of rigidly moved shapes R (tau + U q) + t, at a cost independent of the mesh.
 
     With the rows U_a and tau_a of the coordinates a = x, y, z, the projection is
     sum_ab R_ab (U_a^T M U_b q + U_a^T M tau_b) + sum_a t_a U_a^T M 1, minus U^T M tau.

@@ -1,4 +1,4 @@
-"""widen: more dimensions from the same snapshots, whose parts are combined."""
+"""widen: more dimensions from the same snapshots, by combinations of their parts."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 
-#: Leading directions that are taken apart. With 64 an armadillo has an error of 0.0052, with 120 of
-#: 0.0041 (120 samples, d = 180).
+#: Number of leading directions that are split. With 64 the error on an armadillo is 0.0052, with
+#: 120 it is 0.0041 (120 samples, d = 180).
 TAKEN_APART = 96
-#: Vertices that the fit looks at, evenly spaced: with all of 16,000 it is no better.
+#: Number of vertices in the fit, evenly spaced. With all of 16,000 vertices the fit is no better.
 VERTICES = 8192
 
 
@@ -41,18 +41,19 @@ def widen(
 ) -> AffineSubspace:
     """The subspace that fits snapshots and parts of snapshots best.
 
-    Far from a handle a body hardly feels it. So what one handle does around it in one snapshot can
-    be combined with what another handle does in another snapshot, although no snapshot has both.
-    Windows, smooth weights of the vertices, take snapshots apart; the subspace is the PCA of the
-    snapshots and of their products with every window. It may have more dimensions than there are
-    snapshots, and a few snapshots become as good as several times as many.
+    A handle deforms the body mostly near itself. So the deformation near one handle in one snapshot
+    can be combined with the deformation near another handle in another snapshot, although no
+    snapshot has both. Windows are smooth weights of the vertices that split snapshots into such
+    parts. The subspace is the PCA of the snapshots and of their products with every window. It may
+    have more dimensions than there are snapshots, and serves as well as one from several times as
+    many.
 
     Parameters
     ----------
     subspace : AffineSubspace
-        From `snapshot_pca`, best with all dimensions of the snapshots, up to 256. It stands for the
-        snapshots: each direction counts by their energy along it, and the 96 leading ones are taken
-        apart.
+        From `snapshot_pca`, best with all dimensions of the snapshots, up to 256. Its directions
+        replace the snapshots: each one is weighted by their energy along it, and the 96 leading
+        ones are split.
     snapshots : Snapshots
         The snapshots that it was made of, of a posing problem.
     dimension : int
@@ -65,15 +66,16 @@ def widen(
     Returns
     -------
     AffineSubspace
-        U^T M U = I to rounding. The bases are nested. The squared errors of the snapshots add up
-        to `snapshot_energies` beyond d. Signs are fixed: the largest entry of a column is positive.
+        U^T M U = I up to rounding. Bases are nested. For every d, the squared error of the
+        snapshots is the sum of `snapshot_energies` beyond d. Signs are fixed: the entry of a column
+        that is largest in absolute value is positive.
 
     Raises
     ------
     ValueError
-        For arguments of other types, if the problem has no handles, if the subspace is of another
-        mesh or has no energies, for windows of another shape or not finite, for a dimension below
-        1, or for a weight that is negative or not finite.
+        For arguments of wrong types; if the problem has no handles; if the subspace is of another
+        mesh or has no energies; for windows of another shape or not finite, a dimension below 1, or
+        a weight that is negative or not finite.
     """
     check_subspace(subspace, "widen")
     if not hasattr(snapshots, "usable"):  # this package knows no Snapshots
@@ -119,7 +121,8 @@ def _fitted(
     dimension: int,
 ) -> FloatArray:
     """The basis, (d, 3n)."""
-    # the snapshots' extent along the directions: their products are those of the snapshots
+    # the directions, scaled by the snapshots' extent along them, have the inner products of the
+    # snapshots
     rows = subspace.basis.T.reshape(subspace.dimension, -1, 3)
     extents = np.sqrt(energies[: len(rows), None, None])
 
@@ -147,7 +150,7 @@ def _fitted(
 def _shares(rows: FloatArray, dimension: int) -> FloatArray:
     """Shares (d, k) of rows in their leading principal components, which have length one."""
     eigenvalues, vectors = descending(rows @ rows.T)
-    # below the rounding of the largest, directions are noise: windows that add up depend on another
+    # below the rounding of the largest, directions are noise: windows with sum one are dependent
     rank = int((eigenvalues > len(rows) * np.finfo(float).eps * eigenvalues[0]).sum())
     return scaled(eigenvalues, vectors, min(dimension, rank))
 

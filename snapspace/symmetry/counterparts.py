@@ -9,7 +9,7 @@ from ..mesh import MirrorPlane, check_plane
 from ..problem import PosingProblem, require_posing_problem
 from .side_names import mirrored_name
 
-#: Of the diagonal: handles of few vertices may be so far from the mirror image of the other.
+#: Tolerance relative to the diagonal, for handles of few vertices.
 _SLACK = 0.01
 
 
@@ -17,18 +17,18 @@ def counterparts(problem: PosingProblem, plane: MirrorPlane) -> tuple[int | None
     """For each handle, the index of the handle at its mirror image; None where there is none.
 
     Handles with names of the two sides (`mirrored_name`) are counterparts if each centroid is
-    closer to the mirror image of the other than to its own mirror image. Other handles are if each
-    has its centroid closest to the mirror image of the other, and no farther than the radius of the
-    smaller one (root mean square), plus 1 % of the diagonal. A handle across the plane is its own
-    counterpart.
+    closer to the mirror image of the other than to its own mirror image. Other handles are
+    counterparts if the centroid of each is the closest one to the mirror image of the other, and no
+    farther from it than the radius of the smaller one (root mean square) plus 1 % of the diagonal.
+    A handle across the plane is its own counterpart.
 
-    ValueError for something else than a PosingProblem and a MirrorPlane.
+    ValueError for something other than a PosingProblem and a MirrorPlane.
     """
     require_posing_problem(problem, "counterparts")
     check_plane(plane, "counterparts")
     centers = problem.centroids
     away = np.linalg.norm(plane.points(centers)[:, None] - centers, axis=2)
-    away = (away + away.T) / 2.0  # equal but for rounding
+    away = (away + away.T) / 2.0  # equal up to rounding
     found = _named(problem.handles.names, away)
     radii = _radii(problem)
     reach = np.minimum(radii[:, None], radii) + _SLACK * problem.mesh.diagonal

@@ -10,7 +10,7 @@ from .plane_search import mirror_plane
 from .region import mirrored_region
 from .side_names import mirrored_name
 
-#: A handle is its own mirror image if it shares more than this with it.
+#: A handle that shares more than this with its mirror image counts as its own mirror image.
 MOST_COMMON = 0.5
 
 
@@ -29,10 +29,11 @@ def mirror_handle(
     Returns
     -------
     PosingProblem
-        The counterpart, with the name of `mirrored_name`, comes last. If there is a handle of that
-        name, its vertices and bounds are replaced. The counterpart has the vertices near the mirror
-        image (`mirrored_region`), except those of the mirrored handle; other handles lose them. Its
-        own bounds are mirrored, and the common ones stay: zero for a handle that is held at rest.
+        The counterpart, named by `mirrored_name`, comes last. If there is a handle of that name
+        already, its vertices and bounds are replaced. The counterpart has the vertices near the
+        mirror image (`mirrored_region`), except those of the mirrored handle. Other handles lose
+        these vertices. If the handle has its own bounds, these are mirrored. Common bounds stay;
+        they are zero for a handle that is held at rest.
 
     Raises
     ------

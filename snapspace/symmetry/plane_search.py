@@ -16,13 +16,13 @@ from .surface_points import even_directions, even_points
 FloatArray = NDArray[np.float64]
 Indices = NDArray[np.int32]
 
-#: Animals at rest are under 0.0015, standing figures with their arms apart about 0.01, and what is
-#: posed or has no sides over 0.025.
+#: Animals at rest have less than 0.0015, standing figures with their arms apart about 0.01, and
+#: bodies that are posed or not symmetric more than 0.025.
 MOST_DEVIATION = 0.015
 _DENSE, _FEW, _FINE = 6000, 150, 1000  # points
 _DIRECTIONS, _APART = 120, np.cos(np.deg2rad(15))
 _STARTS = 5
-#: Nearly along an axis: rounded to it unless the deviation grows by more than a tenth.
+#: A normal this close to an axis is rounded to it, unless the deviation grows by more than a tenth.
 _NEAR_AXIS, _WORSE, _EXACT, _ROUNDING = np.cos(np.deg2rad(2)), 1.1, 1e-5, 1e-12
 
 _STEPS = 10
@@ -38,19 +38,19 @@ def mirror_plane(
     Parameters
     ----------
     vertices : array_like, (n, 3)
-        For a TetMesh, `mesh.vertices` and `mesh.surface`.
+        For a TetMesh, pass `mesh.vertices` and `mesh.surface`.
     faces : array_like of int, (f, 3)
     normal : three numbers, optional
-        Direction across the plane, if you know it. Then only the plane's place is sought, and
-        every surface is accepted.
+        Normal of the plane, if you know it. Then only the plane's offset is searched for, and every
+        surface is accepted.
 
     Returns
     -------
     MirrorPlane
-        With its `deviation`. Both sides may have different triangles. If there are several planes,
-        as of a box, the one with the least deviation; x is preferred to y, and y to z. A normal
-        within two degrees of an axis is rounded to it, unless this makes the deviation worse by
-        more than a tenth.
+        The plane with its `deviation`. The two sides may have different triangles. If there are
+        several planes, as for a box, it is the one with the least deviation; among nearly equal
+        ones x is preferred to y, and y to z. A normal within two degrees of an axis is rounded to
+        it, unless this makes the deviation worse by more than a tenth.
 
     Raises
     ------
@@ -60,9 +60,9 @@ def mirror_plane(
 
     Notes
     -----
-    Planes through the centre of area, in 126 directions, are compared at few points. The best ones
-    are improved by fits of closest points (Besl, McKay 1992), then by Gauss-Newton on the distances
-    to the tangent planes of closest points (Chen, Medioni 1992).
+    Planes through the centre of area, in 126 directions, are compared at a few points. The best
+    ones are improved by iterated closest points (Besl, McKay 1992), then by Gauss-Newton on the
+    distances to the tangent planes at closest points (Chen, Medioni 1992).
 
     Examples
     --------
@@ -89,7 +89,7 @@ def mirror_plane(
 
 
 class NotSymmetricError(ValueError):
-    """No plane is good enough; `finding` says how good the best one is, without a cure."""
+    """No plane is good enough; `finding` says how far off the best one is, without advice."""
 
     def __init__(self, best: MirrorPlane) -> None:
         normal = ", ".join(f"{entry:.2f}" for entry in best.normal)
@@ -136,7 +136,7 @@ class _Search:
         return min(planes, key=self._rank)
 
     def _rank(self, plane: MirrorPlane) -> tuple[int, bool, int]:
-        """Order of planes: deviations that differ by a tenth at least, then axes x, y and z."""
+        """Sort key of planes: deviations if they differ by a tenth or more, then axes x, y, z."""
         level = np.floor(np.log(max(_deviation(plane), _EXACT)) / np.log(_WORSE))
         axis = int(np.argmax(np.abs(plane.normal)))
         return int(level), abs(plane.normal[axis]) < 1.0, axis
@@ -182,7 +182,7 @@ class _Search:
         return best
 
     def _step(self, plane: Plane, nearest: NDArray[np.intp], *, turning: bool) -> Plane:
-        """A step towards the least distances of mirrored points to the planes of faces."""
+        """A Gauss-Newton step for the distances of mirrored points to the planes of faces."""
         normal, offset = plane
         images = _images(self._fine, plane)
         triangles = self._faces.triangles[nearest]

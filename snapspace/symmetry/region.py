@@ -32,18 +32,18 @@ def mirrored_region(
     Returns
     -------
     ndarray of int32
-        Sorted. A vertex of the surface belongs to it if the surface at its mirror image belongs to
-        the region: the corner next to the closest point decides, so that the two sides may have
-        different triangles. For a vertex inside, the vertex closest to its mirror image decides. A
-        region too small for the triangles of the other side becomes the corners closest to its
-        mirror image. Where vertices are mirror images of each other, mirroring twice gives the
-        region itself.
+        Sorted indices. A vertex of the surface is one of them if the surface at its mirror image
+        belongs to the region: the corner next to the closest point decides, so that the two sides
+        may have different triangles. For a vertex inside, the vertex closest to its mirror image
+        decides. If the region is smaller than the triangles of the other side, the result is the
+        corners closest to its mirror image. Where vertices are mirror images of each other,
+        mirroring twice gives the region itself.
 
     Raises
     ------
     ValueError
-        For a region without vertices, an index out of range, arrays of another shape, or
-        something else than a plane.
+        For a region without vertices, an index out of range, arrays of another shape, or something
+        other than a plane.
     """
     who = "mirrored_region"
     check_plane(plane, who)

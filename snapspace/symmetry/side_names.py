@@ -16,12 +16,12 @@ _SUFFIX = " mirrored"
 
 
 def mirrored_name(name: str) -> str:
-    """The name of the counterpart on the other side; twice gives the name itself.
+    """The name of the counterpart on the other side; applied twice, it gives the name itself.
 
-    The word left or right changes, in any of the usual cases: "left ear", "EarLeft", "LEFT_EAR". So
-    does the letter l or r at the end after one of . _ - or a space, or at the beginning before one:
-    "ear.L", "ear_r", "L_ear", and before a number as in "ear.L.001". Other names get or lose
-    " mirrored" at the end. ValueError for something else than a name.
+    The word left or right is swapped, in any of the usual cases: "left ear", "EarLeft", "LEFT_EAR".
+    So is the letter l or r at the end after one of . _ - or a space, or at the beginning before
+    one: "ear.L", "ear_r", "L_ear", and before a number as in "ear.L.001". Other names gain or lose
+    " mirrored" at the end. ValueError for something other than a name.
     """
     require_type("mirrored_name", "name", name, str, "give the name of a handle")
     other = _on_other_side(name)

@@ -12,7 +12,7 @@ _STEPS = 0.7548776662466927, 0.5698402909980532
 
 
 def even_points(vertices: FloatArray, faces: NDArray[np.int32], count: int) -> FloatArray:
-    """The same number of points per area, (count, 3), along the order of the faces.
+    """Points (count, 3) with the same number per area, in the order of the faces.
 
     The same points for the same input. The surface must have an area.
     """

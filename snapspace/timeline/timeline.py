@@ -1,4 +1,4 @@
-"""Timeline: keys in time, and how one leads to the next."""
+"""Timeline: keys in time, and the easings between them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from typing import Any
 
 from ..arguments import is_number, require_count, require_positive, wrong_type
 
-#: How the time from a key to the next is used: slowly at both ends, evenly, or not at all.
+#: How the state moves from a key to the next: slowly at both ends, at a constant rate, or not at
+#: all.
 EASINGS = ("smooth", "linear", "hold")
 KINDS = ("posing", "interpolation")
 
@@ -20,10 +21,10 @@ class Key:
     """Where handles or weights are at a time.
 
     time : seconds, not negative
-    state : for posing, motions from rest by handle, as `PosingSession.move_all` takes them, where a
-        handle without one stays as in the key before; for blending, weights by pose, where a pose
-        without one has zero
-    easing : "smooth", "linear" or "hold", default "smooth"; how the next key is approached
+    state : for posing, motions from rest by handle, as `PosingSession.move_all` takes them; a
+    handle without an entry stays as in the key before. For blending, weights by pose; a pose
+    without an entry has weight zero
+    easing : "smooth", "linear" or "hold", default "smooth"; how the state moves to the next key
     """
 
     time: float
@@ -82,7 +83,7 @@ class Timeline:
         return self.keys[-1].time - self.keys[0].time
 
     def frame_count(self, frames_per_second: float) -> int:
-        """Frames at a rate, including both ends; two at least. ValueError for no positive rate."""
+        """Number of frames with both ends, at least two. ValueError unless the rate is positive."""
         require_positive("Timeline.frame_count", "frames_per_second", frames_per_second)
         return max(2, floor(self.duration * frames_per_second + 1e-9) + 1)
 

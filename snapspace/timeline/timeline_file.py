@@ -32,7 +32,7 @@ def read_timeline(path: str | os.PathLike[str]) -> Timeline:
     Raises
     ------
     ValueError
-        For a file that is missing, too large or no timeline; the message names the entry.
+        For a file that is missing, too large or not a timeline; the message names the entry.
     """
     file = existing_file(as_path("read_timeline", path), known=(".json",))
     with within(file):
@@ -51,7 +51,7 @@ def write_timeline(path: str | os.PathLike[str], timeline: Timeline) -> Path:
     Raises
     ------
     ValueError
-        For something else than a timeline, rotations that are no Euler angles, or a file that
+        For something other than a timeline, rotations that are not Euler angles, or a file that
         cannot be written.
     """
     if not isinstance(timeline, Timeline):

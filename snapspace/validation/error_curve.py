@@ -76,7 +76,7 @@ def error_curve(
     -------
     ErrorCurve
         Its projection errors never grow with d. The tets of a cubature were chosen for the whole
-        model, and fewer dimensions use all of them. So the milliseconds fall with d and not with
+        model, and smaller dimensions use all of them. So times are proportional to d and not to
         d^2; a model built for a small d has fewer tets and is faster.
 
     Raises
@@ -102,7 +102,7 @@ def error_curve(
 
 
 def _whole(dimensions: Sequence[int]) -> list[int]:
-    """Ascending dimensions, each once; ValueError for what is no list of whole numbers."""
+    """Ascending dimensions, each once; ValueError for anything but a list of whole numbers."""
     require_type("error_curve", "dimensions", dimensions, Iterable, "give a list, such as [10, 20]")
     who, name = "error_curve", "a dimension"
     return sorted({require_count(who, name, d) for d in dimensions})

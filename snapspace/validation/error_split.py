@@ -1,4 +1,4 @@
-"""split_errors: splits a model's error into the parts of subspace, stiffness and cubature."""
+"""split_errors: splits a model's error into parts due to subspace, stiffness and cubature."""
 
 from __future__ import annotations
 
@@ -22,13 +22,14 @@ PARTS: tuple[Part, ...] = ("subspace", "stiffness", "cubature")
 
 @dataclass(frozen=True, eq=False)
 class ErrorSplit:
-    """The error between full and reduced solutions in three parts, (k,) each for k samples.
+    """The error of reduced solutions in three parts, each (k,) for k samples.
 
-    All are M-norms over |x_full - tau|_M. P is the M-projection into the subspace, and x_all the
-    reduced minimiser with the energy of all tets:
+    All are M-norms, divided by |x_full - tau|_M. P is the M-projection onto the subspace, and x_all
+    the reduced minimiser with the energy of all tets:
 
     subspace : |P x_full - x_full|, the least error that the subspace allows
-    stiffness : |x_all - P x_full|: a subspace cannot relax as the full mesh does, and is too stiff
+    stiffness : |x_all - P x_full|; a subspace is too stiff, since it cannot relax as the full mesh
+    does
     cubature : |x_red - x_all|, the error of summing over few tets; zero for an exact energy
     error_of_all_tets : |x_all - x_full|, the least error that more tets can reach
     error : |x_red - x_full|, as `Validation.error` without the last registration of blends
@@ -79,9 +80,9 @@ def split_errors(
     model : PosingModel or InterpolationModel
     reference : Snapshots
         Full solutions that the model has not seen, as for `validate`. A few are enough. For a
-        cubature each takes 2 d evaluations of the full energy, and one for each step of a descent:
-        0.2 to 3.3 times the time of its full solution (benchmarks/next_options.py). An exact
-        energy takes none.
+        cubature, each one costs 2 d evaluations of the full energy and one per descent step: 0.2 to
+        3.3 times the time of its full solution (benchmarks/next_options.py). An exact energy costs
+        none.
     threads : int, optional
         Default: all. The result does not depend on it.
 

@@ -11,8 +11,8 @@ from ..snapshots import Snapshots, check_snapshots
 def check_reference(model: ReducedModel, reference: Snapshots, *, who: str = "validate") -> None:
     """Raises a ValueError in the name of `who` unless the model has not seen these solutions.
 
-    There must be at least one, of the model's problem, and all must have converged. None may be at
-    a training parameter of the model, where its error says nothing about other parameters.
+    There must be at least one. All must be of the model's problem, and converged. None may be at a
+    training parameter of the model, where its error says nothing about other parameters.
     """
     check_model(model, who)
     check_snapshots(reference, who, "reference")

@@ -17,8 +17,8 @@ FloatArray = NDArray[np.float64]
 
 #: A frame closer than this share of the displacement is at the same minimum.
 APART = 0.02
-#: Steps of descent from a frame. A reduced model is stiffer than the body, so a frame is above the
-#: minimum near it.
+#: Descent steps from a frame. A reduced model is stiffer than the body, so the energy of a frame is
+#: above the minimum near it.
 STEPS = 30
 #: Smaller differences, as a share of the energy, are rounding errors or errors of solving.
 RESOLVED = 1e-6
@@ -33,9 +33,9 @@ def with_lower_minima(
 ) -> tuple[Snapshots, int]:
     """Full solutions, solved again where frames of a model lead to lower energies.
 
-    An energy may have several minima, and a solve from one start need not find the lowest. Where a
-    frame is far from the full solution, thirty steps descend from it in the full space. If their
-    energy is below that of the full solution, the sample is solved again from there.
+    An energy may have several minima, and a solve from one start need not find the lowest. If a
+    frame is far from the full solution, thirty steps descend from it in the full space. If they
+    reach an energy below that of the full solution, the sample is solved again from there.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def with_lower_minima(
 
     Notes
     -----
-    There is nothing below a unique minimum, so errors against a unique solution never change.
+    Nothing is lower than a unique minimum, so errors against a unique solution never change.
     """
     if errors is None:
         errors = unseen_errors(model, reference)

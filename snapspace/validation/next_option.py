@@ -21,12 +21,12 @@ from ..reduction import (
 from ..sampling import Method
 from .error_split import ErrorSplit, Part
 
-#: Advice is given if the error is more than so many times the projection error: motions of default
-#: models have factors of three to seven, blends of two to fourteen.
+#: Advice is given if the error is more than this many times the projection error. Default models
+#: have factors of three to seven for motions, and of two to fourteen for blends.
 FACTOR = 3.0
 #: Growth factors of tets and samples, and of the dimension.
 MORE, LARGER = 2.0, 1.5
-#: Up to so many modes an exact energy stays exact.
+#: Up to this many modes an exact energy stays exact.
 MOST_EXACT = 60
 
 
@@ -37,7 +37,7 @@ class NextOption:
     part : "subspace", "stiffness" or "cubature", see `ErrorSplit`
     samples, dimension : those of the model if only its tets are too few, otherwise larger ones
     tets : number of tets of a cubature; None for an exact energy, and for the default of `reduce`
-    energy : option of `reduce`; "auto" if that gives the same
+    energy : option of `reduce`; "auto" if that gives the same energy
     tolerance : tolerance of the samples, if their problem's own is not tight enough for a cubature
     method : option of `sample`
     """
@@ -86,12 +86,12 @@ def next_option(model: ReducedModel, split: ErrorSplit) -> NextOption:
     NextOption
         For the cubature, twice as many tets, at least as many as `reduce` takes by default, with
         the same samples and dimension. Otherwise 1.5 times the dimension from twice as many
-        samples, at least two per mode: a larger subspace of the same samples would fit only them.
+        samples, at least two per mode: a larger subspace of the same samples would fit only these.
 
     Raises
     ------
     ValueError
-        For something else than a model and a split.
+        For something other than a model and a split.
     """
     check_model(model, "next_option")
     require_type("next_option", "split", split, ErrorSplit, "give that of split_errors")

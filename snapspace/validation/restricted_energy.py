@@ -30,8 +30,8 @@ DECREASE, HALVINGS = 1e-4, 30
 class RestrictedEnergy:
     """F(tau + U q, w) of all tets for one parameter vector, as a function of q.
 
-    A gradient is U^T g with one gradient g of the full problem. The energy is that of a cubature
-    with all tets, weighted by their volumes, but without its 36 bytes per tet and mode.
+    A gradient is U^T g with one gradient g of the full problem. The energy equals that of a
+    cubature with all tets, weighted by their volumes, but does not need 36 bytes per tet and mode.
 
     Parameters
     ----------

@@ -16,8 +16,9 @@ FloatArray = NDArray[np.float64]
 #: hundredth of the snapshots' tolerance. On the Dragon its shapes are then within 1e-4 of the
 #: limit, relative to the displacement.
 REFERENCE_TOLERANCE = 1e-10
-#: Samples that need more are left out, and so one kind of motions would be. On a spring of six
-#: turns one in ten takes more than 5000 iterations, and a long wire 16,000.
+#: Samples that need more iterations are left out. A small bound would leave out one kind of motion:
+#: on a spring of six turns one sample in ten takes more than 5000 iterations, and a long wire takes
+#: 16,000.
 REFERENCE_ITERATIONS = 20_000
 
 

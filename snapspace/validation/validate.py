@@ -35,21 +35,20 @@ def validate(
     seed : int, default 1
         Seed of the parameters, which come from a stream that `sample` never uses.
     reference : Snapshots, optional
-        Known full solutions of the same problem instead of new ones, such as
-        `Validation.reference`, or those of `load_snapshots`. The errors are only as accurate as
-        these solutions.
+        Known full solutions of the same problem, such as `Validation.reference` or those of
+        `load_snapshots`. They replace new ones. The errors are only as accurate as these solutions.
     threads, progress : as for `solve_snapshots`
 
     Returns
     -------
     Validation
-        New and known solutions give the same figures, except milliseconds. New solutions are the
-        lowest known ones, see `with_lower_minima`; `Validation.reference` has them.
+        Passing `Validation.reference` again gives the same figures, except milliseconds. New
+        solutions are the lowest that are found, see `with_lower_minima`.
 
     Raises
     ------
     ValueError
-        For something else than a model; for samples or a seed that are not whole numbers; if no
+        For something other than a model; for samples or a seed that are not whole numbers; if no
         full solution converged; for samples or seed together with a reference; for a reference of
         another problem, without samples, with a sample that did not converge, or with one at a
         training parameter of the model.

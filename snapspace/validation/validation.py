@@ -20,15 +20,15 @@ class Validation:
 
     error : |x_red - x_full|_M / |x_full - tau|_M of the reduced solve from tau, the rest or mean
     shape; for interpolation after rigid registration
-    projection_error : the same for the M-projection of x_full into the subspace, the least possible
+    projection_error : the same for the M-projection of x_full onto the subspace, the least possible
     error
-    energy_ratio : objective of the reduced solution over that of the full one
+    energy_ratio : objective of the reduced solution divided by that of the full one
     iterations : iterations of the session
     solve_ms, frame_ms : milliseconds of the solve, and of the solve and all vertices
-    inverted_tets : number of tets of the reduced solution without positive volume; those of the
-    full solutions are in `reference.reports`
+    inverted_tets : number of tets without positive volume in the reduced solution; for the full
+    solutions see `reference.reports`
     reference : the full solutions, for the next validation; `save_snapshots` writes them
-    lower_minima : number of them that are lower minima to which frames led
+    lower_minima : number of full solutions that are lower minima, found from frames
     """
 
     error: FloatArray
