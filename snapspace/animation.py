@@ -17,7 +17,7 @@ from .gltf import film_targets, still_shape, write_glb
 from .mesh import SURFACE_OUTPUTS, TET_OUTPUTS, EmbeddedSurface, solid_of, write_surface, write_tets
 from .reduction import ReducedModel, check_model
 
-#: Formats that ParaView reads, with a list of the files beside them.
+#: Formats for ParaView, which come with a list of the files.
 _SERIES = (".vtu", ".vtk")
 _GLB_OPTIONS = ("frames_per_second", "name", "up", "colors", "targets")
 
@@ -36,25 +36,25 @@ def write_animation(
     Parameters
     ----------
     path : path
-        A film, `.gif` or `.mp4`; an animated mesh, `.glb`; or else a folder, which is created, for
-        frame-0000.obj, frame-0001.obj and so on. Existing files with these names are replaced.
+        A film, `.gif` or `.mp4`; an animated mesh, `.glb`; or a folder for frame-0000.obj,
+        frame-0001.obj and so on, which is created. Existing files with these names are replaced.
     model : ReducedModel
         The model that the shapes belong to.
     shapes : iterable of (n, 3)
         Vertices of the tets.
     kind : str, default that of the user's surface, or obj
         Format of the files in a folder: a surface as obj, ply, off, stl or glb, or all tets as msh,
-        vtu, vtk or mesh. In the format of the file that the surface came from (also gltf) it is
-        that file with other positions, see `SurfaceFile`; a glb has its materials, see `write_glb`,
-        and others have triangles only. With vtu and vtk there is also frames.vtu.series, which
-        ParaView opens with the times.
+        vtu, vtk or mesh. In the format of the file that the surface came from (also gltf), each
+        frame is that file with other positions, see `SurfaceFile`. A glb has the file's materials,
+        see `write_glb`. Other formats have triangles only. With vtu or vtk, a file such as
+        frames.vtu.series opens all frames with their times in ParaView.
     frames_per_second : float, default 30
         The frame rate of a film, a .glb or a series for ParaView.
     **picture
         Options for a film: size, azimuth, elevation, up (default: that of the model), colors and
-        others, see `pictures.save_film`. A .glb takes up, colors, and targets: the largest number
+        others, see `pictures.save_film`. A .glb accepts up, colors and targets: the largest number
         of morph targets that are fitted to the shapes, at least 2, default 8, see `write_glb`. The
-        kind glb takes up.
+        kind glb accepts up.
 
     Returns
     -------
@@ -64,8 +64,8 @@ def write_animation(
     Raises
     ------
     ValueError
-        For something else than a model, an unknown kind or option, a folder that cannot be created,
-        and as for `save_film`.
+        For something other than a model, an unknown kind or option, a folder that cannot be
+        created, and as for `save_film`.
 
     Examples
     --------
@@ -103,8 +103,9 @@ def write_shape(
 ) -> None:
     """Writes a shape (n, 3) of a model: its surface or its tets, depending on the extension.
 
-    In the format of the file that the surface came from, it is that file with other positions.
-    Another .glb has the surface's materials and stands upright, by `up` or the model's own axis.
+    In the format of the file that the surface came from, the result is that file with other
+    positions. A .glb of another surface has the surface's materials, and its axis `up`, by default
+    the model's, points up.
     """
     suffix, surface = path.suffix.lower(), model.surface
     source = surface.source
@@ -119,7 +120,7 @@ def write_shape(
 
 
 def shape_suffixes(surface: EmbeddedSurface) -> tuple[str, ...]:
-    """Extensions that `write_shape` takes for a model with this surface."""
+    """Extensions that `write_shape` accepts for a model with this surface."""
     own = () if surface.source is None else (surface.source.suffix,)
     return tuple(dict.fromkeys((*SURFACE_OUTPUTS, ".glb", *own, *TET_OUTPUTS)))
 

@@ -41,7 +41,7 @@ SAMPLES = 50
 TYPICAL_FRAMES = 32
 #: Tolerance of these frames. Their residuals are forces that the subspace cannot balance.
 TYPICAL_TOLERANCE = 1e-4
-#: Distances and indicators below this share of the largest one are rounding.
+#: Distances and indicators below this share of the largest one are rounding errors.
 ROUNDING = 1e-12
 
 
@@ -57,9 +57,10 @@ def calibrate(
 ) -> Model:
     """Returns the model with an `ErrorEstimator`, so that its sessions can give certificates.
 
-    Solves the full and the reduced problem at new parameters, and keeps the ratios of the true
-    distances to what a session can see: the residual at a few vertices, and how far a polish moves
-    the shape. Default builds do so with their held-out samples, for quick certificates.
+    Solves the full and the reduced problem at new parameters, and stores the ratios of the true
+    distances to two indicators that a session can compute: the residual at a few vertices, and how
+    far a polish moves the shape. Default builds do this with their held-out samples, for quick
+    certificates.
 
     Parameters
     ----------
@@ -67,13 +68,12 @@ def calibrate(
         The model to calibrate.
     samples : int, default 50
         Number of full solutions, each two to four times as expensive as a snapshot. A confidence c
-        takes at least c / (1 - c) of them: nine for 90 %, 99 for 99 %; with few the bounds are
-        wide.
+        needs at least c / (1 - c) of them: nine for 90 %, 99 for 99 %. With few solutions the
+        bounds are wide.
     seed : int, default 0
-        Seed of the parameters. They have their own random streams: neither `sample` nor `validate`
-        draws them.
+        Seed of the parameters. Their random stream differs from those of `sample` and `validate`.
     reference : Snapshots, optional
-        Known full solutions in place of new ones, as for `validate`.
+        Known full solutions instead of new ones, as for `validate`.
     thorough : bool, default True
         Whether to measure how far a polish moves the shape: ten full iterations for each solution.
         Without it there are no thorough certificates.
@@ -206,7 +206,7 @@ def _measured(
 
 
 def _ratios(distances: FloatArray, indicators: FloatArray) -> FloatArray:
-    """True distances over indicators; both are at least rounding."""
+    """True distances over indicators; both are raised to at least the size of rounding errors."""
     tiny = np.finfo(np.float64).tiny
     above, below = (np.maximum(a, max(ROUNDING * a.max(), tiny)) for a in (distances, indicators))
     ratios: FloatArray = above / below

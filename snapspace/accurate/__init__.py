@@ -1,4 +1,4 @@
-"""Models of a wanted accuracy: samples and dimension follow from measured errors."""
+"""Models of a given accuracy: samples and dimension follow from measured errors."""
 
 from .accurate_model import AccurateModel, accurate_model
 from .checks import check_budget, check_most

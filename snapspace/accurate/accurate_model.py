@@ -1,4 +1,4 @@
-"""accurate_model: chooses samples and dimension for a wanted error at unseen parameters."""
+"""accurate_model: chooses samples and dimension for a target error at unseen parameters."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ ModelOf = TypeVar("ModelOf", bound=Model)
 class AccurateModel(Generic[ModelOf]):
     """A model of motions or blends, and how it was found.
 
-    model : the first that met the target, or else the one with the least error
+    model : the first model that met the target, or else the one with the least error
     snapshots : all samples, including the held-out ones
     held_out : (k,), True for the samples that were held out
     steps : the models that were tried, in order
     step : the step that made `model`
-    target : the error that was asked for
-    most_samples : the limit of the samples, which may depend on how long they take
+    target : the requested error
+    most_samples : the limit on samples, which may depend on how long they take
     """
 
     model: ModelOf
@@ -116,21 +116,21 @@ def accurate_model(
     surface: EmbeddedSurface | None = None,
     tell: Tell | None = None,
 ) -> AccurateModel[Any]:
-    """Solves samples until the model of some meets a target on the others.
+    """Solves samples until a model trained on some of them meets a target error on the others.
 
-    The first stage solves some samples to train on, and a few more tightly, which are held out to
-    judge models. The projections of the held-out samples show which dimension may be enough, if
-    any is. Then a model is made, and its reduced solutions are compared with the held-out samples.
-    The ratio of the two errors decides the next dimension. Where no dimension is enough, half as
-    many samples again are solved; they start from the reduced solutions of the best model, if there
-    is one. Where motions miss the target with all their samples, and these allow fewer than 320
-    dimensions, the last model combines parts of samples, see `widen`; bodies of more than 75,000
-    vertices gain nothing by that. Without a budget, time plays no part.
+    The first stage solves some samples to train on, and, more tightly, a few that are held out to
+    judge models. The projection errors of the held-out samples show which dimension may be enough,
+    if any. Then a model is made, and its reduced solutions are compared with the held-out samples.
+    The ratio of the two errors decides the next dimension. If no dimension is enough, half as many
+    samples again are solved, starting from the reduced solutions of the best model, if there is
+    one. If motions miss the target with all samples, and these allow fewer than 320 dimensions, the
+    last model combines parts of samples, see `widen`; bodies of more than 75,000 vertices gain
+    nothing from that. Without a budget, the result does not depend on time.
 
-    Bodies that are soft between their handles take many evaluations. If the first 32 motions of
-    tets take more than 110 each, a model predicts the others: they start from its solutions, have
-    its Hessians in the seed of the solver, and are solved more loosely, but not the held-out ones.
-    There may then be more samples, see `predicted_most_samples`.
+    Bodies that are soft between their handles take many evaluations. If the first 32 motions of a
+    solid take more than 110 each on average, a model predicts the others. They start from its
+    solutions, with its Hessians in the seed of the solver, and have a looser tolerance. Held-out
+    samples are not predicted. There may then be more samples, see `predicted_most_samples`.
 
     Parameters
     ----------
@@ -138,28 +138,28 @@ def accurate_model(
         The reduced energy of its material should be a cubature: where solutions are not unique, as
         with St.Venant-Kirchhoff, no number of samples meets a target.
     target_error : float, default 0.003 for motions, 0.005 for blends
-        |x_red - x_full|_M / |x_full - tau|_M of the held-out samples: the median of motions, and
-        the mean of blends.
+        |x_red - x_full|_M / |x_full - tau|_M of the held-out samples: the median for motions, and
+        the mean for blends.
     most_samples : int, optional
         Largest number of samples in all, at least 20. If the target is not met, the best model is
         returned. Default: `usual_most_samples`, or `predicted_most_samples` where models predict.
     budget : float, optional
-        Time limit in seconds. Samples that would probably exceed it are not solved; the first stage
-        always is. With a budget, the result depends on the speed of the machine. Default: none; the
-        default of `most_samples` limits large meshes to about a minute on two cores.
+        Time limit in seconds. The first stage is always solved; further samples are not if they
+        would probably exceed the limit. With a budget, the result depends on the speed of the
+        machine. Default: none; the default of `most_samples` limits large meshes to about a minute
+        on two cores.
     seed : int, default 0
         Seed of the samples, see `GrowingSamples`.
     options, threads, progress, checkpoint, executor : as for `solve_snapshots`
     start : PosingModel, optional
-        A model of the same mesh with other handles, new, saved or loaded: handles may have been
-        added, removed or moved since. The first model is then made of its shapes, and of shapes
-        solved loosely from what it predicts for the new handles. It has up to 2.4 times the error
-        of a model made from scratch, after a sixth to two thirds of the time. Unless it meets the
-        target, samples are solved starting from its solutions, and the old shapes count for later
-        bases.
-        If handles were only removed, the first model is the old one without them, at once. Unless
-        it meets the target, others are made as without `start`: the old shapes would take
-        dimensions.
+        A model of the same mesh with other handles, just made or loaded: handles may have been
+        added, removed or moved. The first new model is then made from its shapes, and from loosely
+        solved shapes that start from its predictions for the new handles. The new model has up to
+        2.4 times the error of one made from scratch, after a sixth to two thirds of the time.
+        Unless it meets the target, samples are solved starting from its solutions, and later bases
+        include the old shapes. If handles were only removed, the first new model is the old one
+        without them, at once. Unless it meets the target, others are made as without `start`, since
+        the old shapes would use up dimensions.
     surface : as for `reduce`
     tell : callable(str), optional
         Gets a line for each model that was tried, and the reason when samples are added.
@@ -172,9 +172,9 @@ def accurate_model(
     Raises
     ------
     ValueError
-        For something else than a problem, a target that is not between 0 and 1, a budget that is
+        For something other than a problem, a target that is not between 0 and 1, a budget that is
         not positive, fewer than 20 samples, or no usable ones. Also for a `start` of another mesh,
-        without training shapes, or with other changes than handles.
+        without training shapes, or that differs in more than its handles.
     Interrupted
         On Ctrl-C, after the finished samples have been saved.
     """

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..arguments import is_finite, is_whole, shown
 from ..problem import InterpolationProblem, PosingProblem
 
-#: Fewest samples, and fewest held-out ones among them.
+#: Smallest number of samples, and of held-out ones among them.
 FEWEST_SAMPLES, FEWEST_HELD_OUT = 20, 4
 
 

@@ -11,25 +11,26 @@ from .growing_samples import GrowingSamples
 from .plan import Plan
 from .step import Step
 
-#: Most modes per solution that they come from: further modes fit only these solutions.
+#: Largest number of modes per training solution: further modes fit only these solutions.
 MODES_PER_SOLUTION = 0.8
 #: Least growth of the dimension from one try to the next.
 GROWTH = 1.2
 #: The same from the last try to the most dimensions.
 LAST_GROWTH = 1.1
-#: If more dimensions leave more than this share of the error, still more do not help.
+#: If a larger dimension leaves more than this share of the error, still larger ones do not help.
 FALL = 0.9
-#: Factor by which a try aims below the target. A median over few held-out samples is uncertain, and
-#: more dimensions of the same samples cost little.
+#: Safety factor of the expected error when a dimension is chosen. A median over few held-out
+#: samples is uncertain, and more dimensions from the same samples cost little.
 AIM = 1.5
-#: The same at least; if no dimension meets that, more samples are needed.
+#: The smallest safety factor. If no dimension meets the target with it, more samples are needed.
 MARGIN = 1.1
-#: Beyond this share of a plan's most dimensions frames get slow: tries aim no lower than they must.
+#: Beyond this share of a plan's largest dimension frames get slow: there the smallest factor is
+#: used.
 AIMED = 0.8
 
 
 class DimensionSearch:
-    """Chooses dimensions by projection errors, and by how much larger errors of models are.
+    """Chooses dimensions by projection errors, and by the ratio of model errors to them.
 
     Parameters
     ----------
@@ -64,7 +65,7 @@ class DimensionSearch:
     def dimensions(self, *, last: bool) -> Iterator[int]:
         """Dimensions to try in turn, until one meets the target or more do not help.
 
-        There are none if more samples are needed, unless these samples are the `last`.
+        Empty if more samples are needed, unless these samples are the `last`.
         """
         while not self._useless():
             tried = self.steps[-1].dimension if self.steps else 0
@@ -76,7 +77,7 @@ class DimensionSearch:
             yield wanted
 
     def _wanted(self) -> int:
-        """The dimension that is expected to meet the target; above the most if there is none."""
+        """The dimension that is expected to meet the target; above the largest if there is none."""
         enough = self._first_below(MARGIN)
         if enough > self.most:
             return enough

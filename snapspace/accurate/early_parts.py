@@ -6,7 +6,7 @@ from ..problem import InterpolationProblem, PosingProblem
 
 
 def make_early_parts(problem: PosingProblem | InterpolationProblem) -> None:
-    """Makes what every stage needs besides the system, and what can be made without it."""
+    """Makes the parts that every stage needs and that do not need the system."""
     _ = problem.mesh.surface
-    if isinstance(problem, PosingProblem):  # otherwise it is the mass of the mean shape, a solution
+    if isinstance(problem, PosingProblem):  # a blend's mass is that of its mean shape, a solution
         problem.mass()

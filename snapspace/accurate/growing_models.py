@@ -1,4 +1,4 @@
-"""growing_models: gives a first model within seconds, then better ones until one is accurate."""
+"""growing_models: yields a first model within seconds, then better ones until one is accurate."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ class Growth:
     """One of the models of `growing_models`.
 
     model : PosingModel or InterpolationModel
-    snapshots : the samples solved by then, including the held-out ones
+    snapshots : the samples solved so far, including the held-out ones
     held_out : (k,), True for the samples that are held out
-    step : errors of the model; None for the first impression, whose errors are not measured
+    step : errors of the model; None for the preliminary first model, whose errors are not measured
     seconds : time since `growing_models` began
     final : whether this is the last model
     """
@@ -59,8 +59,8 @@ def growing_models(
 ) -> Iterator[Growth]:
     """Yields the models that `accurate_model` finds on its way to the last one.
 
-    The first one is an impression of a few loosely solved samples, which are starting points for
-    later solves. With `start`, a model of other handles, the first one is far better than that, see
+    The first one is a preliminary model from a few loosely solved samples, from which later solves
+    start. With `start`, a model of other handles, the first one is far better, see
     `accurate_model`. All others are judged by held-out samples, and each is better than those
     before it.
 

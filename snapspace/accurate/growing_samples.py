@@ -24,7 +24,7 @@ from .solving import Solving
 FloatArray = NDArray[np.float64]
 Model = PosingModel | InterpolationModel
 
-#: Held-out samples nearer to tau than this share of the median distance do not judge.
+#: Held-out samples nearer to tau than this share of the median distance do not judge models.
 _NEAR = 0.05
 
 
@@ -40,12 +40,13 @@ class GrowingSamples:
     first, held_out : int
         The `first` samples train, the next `held_out` are held out, and all others train again.
     pilot : int, default 0
-        So many of the first training samples are solved before others are predicted.
+        Number of the first training samples that are solved before others are predicted.
     slow : float, default 0
-        Others are predicted only if these take more evaluations a sample.
+        Others are predicted only if the pilot takes more evaluations per sample than this.
     judges_too : bool, default False
-        Whether held-out samples are predicted as well. Where there may be several minima they must
-        not depend on a model. Where there is one, a model's Hessians lead closer to it.
+        Whether held-out samples are predicted as well. Where there may be several minima, held-out
+        samples must not depend on a model. Where there is only one, a model's Hessians lead closer
+        to it.
     """
 
     def __init__(
@@ -88,7 +89,7 @@ class GrowingSamples:
 
     @property
     def are_predicted(self) -> bool:
-        """Whether a model of the pilot predicts others: it has been solved, and it was slow."""
+        """Whether a model of the pilot predicts others: the pilot has been solved, and was slow."""
         if not self._pilot or self._snapshots is None or len(self._snapshots) < self._pilot:
             return False
         evaluations = np.array([report.evaluations for report in self._snapshots.reports])
@@ -130,12 +131,12 @@ class GrowingSamples:
 
     @property
     def trained_solutions(self) -> int:
-        """How many solutions a basis comes from, including those known without solving."""
+        """Number of solutions that a basis comes from, including those known without solving."""
         given = 0 if self._given is None else len(self._given)
         return int(self._training().sum()) + len(self._known()) + given
 
     def begin_with(self, given: Snapshots, near: Snapshots) -> None:
-        """Takes shapes that count for a basis, and others near which the first solves start.
+        """Adds shapes that count for a basis, and others near which the first solves start.
 
         Shapes at the parameters of held-out samples, such as the first Sobol point of fewer
         handles, are left out: a model must not be trained there.
@@ -149,14 +150,14 @@ class GrowingSamples:
         return np.array([w.tobytes() not in judges for w in parameters], bool)
 
     def begin_near(self, model: PosingModel, count: int) -> Snapshots:
-        """Takes a model's solutions for the first samples that train; solves start near them."""
+        """Adds a model's solutions for the first training samples; solves start near them."""
         parameters = self.training_parameters[:count]
         solved = reduced_solutions(model, parameters)
         self._first_known = unsolved_snapshots(self.problem, parameters, solved)
         return self._first_known
 
     def solve_loosely(self, count: int, solving: Solving, *, known: Snapshots | None) -> Snapshots:
-        """Solves the first samples for a first impression; later solves start from them.
+        """Solves the first samples loosely for a preliminary model; later solves start from them.
 
         known : where these solves start, as for `solve_snapshots`
         """
@@ -251,8 +252,8 @@ class GrowingSamples:
     def _judging(self) -> NDArray[np.bool_]:
         """Mask (k,) of the usable samples that are held out, without those next to tau.
 
-        Errors are relative to the distance from tau. Two poses have a sample close to their mean
-        shape: it looks right, and may be 40 % off and decide the mean of the others.
+        Errors are relative to the distance from tau. For two poses, one sample is close to the mean
+        shape: it looks right, but its relative error may be 40 %, which would dominate the mean.
         """
         judging = self._usable(self.held_out, fewest=1)
         distances = np.sqrt(np.diag(self._gram.matrix)[: len(judging)])

@@ -115,7 +115,7 @@ class ModelSearch:
         return time.perf_counter() - self._begin
 
     def solve_impression(self, known: Snapshots | None = None) -> Snapshots | None:
-        """Solves the loose samples of a first impression, where later solves start; None if none.
+        """Solves the loose samples of a preliminary model, where later solves start; None if none.
 
         known : where they start, as for `solve_snapshots`; no effect with a model of other handles
         """
@@ -134,7 +134,7 @@ class ModelSearch:
         return self.samples.solve_loosely(count, self._solving, known=known)
 
     def impression(self, loose: Snapshots) -> Model:
-        """The model of a first impression, or the one made from an old model."""
+        """The preliminary model, or the one made from an old model."""
         if self._first is not None:
             return self._first
         return self._model(loose, min(self._plan.impression_dimension, len(loose) - 1))
@@ -146,7 +146,7 @@ class ModelSearch:
         return recorded(self.best, self.target, self.steps)
 
     def trials(self, *, one_a_stage: bool = False) -> Iterator[Trial]:
-        """Yields the models that are tried; at the end `best` is the one to take.
+        """Yields the models that are tried; at the end `best` is the one to use.
 
         one_a_stage : also yield a model of a stage that cannot meet the target, to show progress.
             It does not count otherwise.
@@ -187,8 +187,8 @@ class ModelSearch:
     def _ratio(self) -> float:
         """Ratio of errors of reduced solutions to those of projections, as known so far.
 
-        The least of the steps, without a restricted model's: where more dimensions do not help, it
-        grows and means nothing. Before them, that of the last model that predicted samples, if any.
+        The smallest ratio of the steps, without that of a restricted model: it grows where more
+        dimensions do not help. Before the first step, that of the last predicting model, if any.
         """
         steps = self.steps if self._restricted is None else self.steps[1:]
         if steps:
@@ -267,7 +267,7 @@ class ModelSearch:
         *,
         tets: int | None = None,
     ) -> Model:
-        """A model of at most a dimension; `trained` are those that train it, default all."""
+        """A model of at most a dimension; `trained` are the samples that train it, default all."""
         self._begins("subspace")
         self._finish_parts()
         basis = largest_pca(snapshots, dimension, threads=self._solving.threads)
@@ -285,7 +285,7 @@ class ModelSearch:
         )
 
     def _is_too_late(self, count: int, following: int) -> bool:
-        """Whether the samples of the next stage and a model would end after the budget."""
+        """Whether the samples of the next stage and a model would exceed the budget."""
         if self._budget is None:
             return False
         # the first model takes up to as long as the samples that it is made of

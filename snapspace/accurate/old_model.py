@@ -27,15 +27,16 @@ from .predicting import MOST_DIMENSIONS
 
 FloatArray = NDArray[np.float64]
 
-#: Tolerance of shapes near solutions, which takes 12 to 27 evaluations from a guess and leaves
-#: errors of 0.01; a whole solve takes 60 to 100. With 1e-4 it takes half as many evaluations again,
-#: and more of these shapes are the better choice: in the same time, a Spot with a new tail has an
-#: error of 0.017 instead of 0.020.
+#: Tolerance of shapes near solutions. From a guess, it takes 12 to 27 evaluations and leaves errors
+#: of 0.01; a full solve takes 60 to 100. A tolerance of 1e-4 takes half as many evaluations again.
+#: More shapes of this tolerance are the better choice: in the same time, a Spot with a new tail has
+#: an error of 0.017 instead of 0.020.
 TOLERANCE = 1e-3
-#: Limit of the iterations of each, wherever the guess is.
+#: Limit on the iterations of each, however far off the guess is.
 MOST_ITERATIONS = 100
-#: Fewest shapes near solutions for each parameter, and their share of those of the old model. Taken
-#: apart they are as good as half as many again were as a whole (docs/notes/other-handles.md).
+#: Smallest number of shapes near solutions for each parameter, and their share of those of the old
+#: model. With their parts they are as good as half as many again without
+#: (docs/notes/other-handles.md).
 SHAPES_A_PARAMETER, SHARE = 8, 0.5
 
 
@@ -105,7 +106,8 @@ class OldModel:
     def widened(self, near: Snapshots, most: int, threads: int | None) -> AffineSubspace:
         """The subspace of shapes near solutions and the model's shapes, and of their parts.
 
-        It has at most so many dimensions, and one per shape near a solution more than the model's.
+        It has at most `most` dimensions, and at most one per shape near a solution more than the
+        model.
         """
         shapes = near.joined(self.shapes)
         return widened_pca(shapes, min(most, self.dimension + len(near)), threads=threads)
@@ -113,10 +115,10 @@ class OldModel:
     def guesses(self, parameters: FloatArray, *, threads: int | None) -> FloatArray:
         """Displacements (k, 3n) near the solutions for samples (k, p), without solving.
 
-        There are two ways. One solves in the subspace for the handles that both problems have, and
-        then adds the difference of two linear responses, which takes the others from where they are
-        to their targets. The other solves for all handles in the subspace, which can follow new
-        ones only partly. The second is used if no handle is new, the first if none is gone, and
+        There are two ways. The first solves in the subspace for the handles that both problems
+        have, and then adds the difference of two linear responses, which moves the other handles to
+        their targets. The second solves for all handles in the subspace, which can follow new ones
+        only partly. The second is used if no handle is new, the first if none was removed, and
         otherwise the one with less energy. If another handle is fixed, or the material differs, the
         guess is the linear response to all handles.
         """
@@ -163,10 +165,10 @@ class OldModel:
 
 
 def usual_shapes(model: PosingModel, problem: PosingProblem) -> int:
-    """How many shapes near solutions a first model takes.
+    """Number of shapes near solutions for a first model.
 
-    Eight for each parameter, and at least half of those that the old model has: some bodies take
-    more than others.
+    Eight for each parameter, and at least half as many as the old model has shapes, since some
+    bodies need more than others.
     """
     known = SHARE * len(model.training_parameters)
     return max(SHAPES_A_PARAMETER * problem.parameter_count, round(known))

@@ -17,7 +17,7 @@ FloatArray = NDArray[np.float64]
 
 #: Growth of the number of training samples from stage to stage.
 MORE_SAMPLES = 1.5
-#: Default limit of samples of the largest meshes.
+#: Default limit on samples of the largest meshes.
 FEWER_SAMPLES = 160
 
 
@@ -30,22 +30,22 @@ class Plan:
     typical_name, unseen_name : names of the statistic and of unseen samples, for the user
     sampling : method of the samples
     first : number of training samples of the first stage
-    pilot : how many of them make a model that predicts the others; then every stage makes a model
-        for the next one. 0: only models that may meet the target are made
+    pilot : number of them that make a model which predicts the others; then every stage makes a
+    model that predicts the next one. 0: only models that may meet the target are made
     slow : the pilot's model predicts others only if its samples take more evaluations, on average
     trusts_predictions : whether the held-out samples are predicted as well, and the first model is
-        expected to have the ratio of the model that predicts, not `first_ratio`
+    expected to have the ratio of the predicting model, not `first_ratio`
     held_out : number of samples that judge models
     first_ratio : assumed ratio of errors of reduced solutions to those of projections, before it is
-        measured; too low a ratio costs models that miss the target, too high a ratio samples
+    measured. Too low a ratio wastes models that miss the target; too high a ratio wastes samples
     most_dimensions : limit of the dimension, so that a frame of a drag takes about 1 ms
-    impression, impression_dimension : number of loosely solved samples of a first impression, see
-        `growing_models`, and the dimension of its model
-    most_samples : default limit of samples of small meshes
-    most_vertices : limit of the vertices of all samples together, where that is less than
-        `most_samples` and more than 160 samples
-    enough_samples : as many samples as the most dimensions need
-    enough_vertices : limit of the vertices of up to so many samples: a minute on two cores
+    impression, impression_dimension : number of loosely solved samples of the preliminary model,
+    see `growing_models`, and its dimension
+    most_samples : default limit on samples of small meshes
+    most_vertices : limit on the vertices of all samples together, if that gives fewer than
+    `most_samples` and more than 160 samples
+    enough_samples : number of samples that the largest dimension needs
+    enough_vertices : limit on the vertices of up to `enough_samples` samples: a minute on two cores
     predicted_vertices : the same where models predict samples
     looser_if_large : factor of the samples' tolerance for bodies that get 160 of them, `is_large`
     """
@@ -91,8 +91,8 @@ class Plan:
 
 
 #: For blends of generated and real poses the ratio is 2 to 14. Blends of surfaces are predicted:
-#: from a model's solutions held-out ones end near their only minimum, and the ratio of a model that
-#: predicts is near that of the first one (docs/notes/surface-blends.md).
+#: from a model's solutions, held-out samples end near their only minimum, and the ratio of a
+#: predicting model is near that of the first one (docs/notes/surface-blends.md).
 BLENDS = Plan(
     target=0.005,
     typical=lambda errors: float(np.mean(errors)),
@@ -115,12 +115,13 @@ BLENDS = Plan(
     predicted_vertices=2_000_000,
     looser_if_large=1.0,
 )
-#: Blends of surfaces that are as rigid as possible. Their energies have no error of a cubature, so
-#: more dimensions help, and samples are predicted: ten Lions have errors of 0.0138 with 640 samples
-#: and 200 dimensions, 0.0101 with 400 and 256, and 0.0092 with 640 and 256.
+#: Blends of as-rigid-as-possible surfaces. Their energies have no cubature error, so more
+#: dimensions help, and samples are predicted. Ten Lions have errors of 0.0138 with 640 samples and
+#: 200 dimensions, 0.0101 with 400 and 256, and 0.0092 with 640 and 256.
 RIGID_BLENDS = replace(BLENDS, most_dimensions=256, predicted_vertices=2_500_000)
-#: For motions the ratio is 3 to 7. Where they are predicted it falls with the dimension, from 72 to
-#: 45 or 98 to 29, so that the ratio of such models would cost samples. There may be several minima.
+#: For motions the ratio is 3 to 7. The ratio of predicting models is far higher and falls with the
+#: dimension, from 72 to 45 or 98 to 29, so using it would waste samples. There may be several
+#: minima.
 MOTIONS = Plan(
     target=0.003,
     typical=lambda errors: float(np.median(errors)),
@@ -146,7 +147,7 @@ MOTIONS = Plan(
 
 
 def plan_of(problem: PosingProblem | InterpolationProblem) -> Plan:
-    """The plan for a problem; two poses take Sobol points, as `blends` adds only their middle."""
+    """The plan for a problem. Two poses use Sobol points, as `blends` adds only their middle."""
     if isinstance(problem, PosingProblem):
         plan = MOTIONS
     else:
@@ -159,21 +160,21 @@ def plan_of(problem: PosingProblem | InterpolationProblem) -> Plan:
 def is_large(problem: PosingProblem | InterpolationProblem) -> bool:
     """Whether a mesh is so large that it gets only 160 samples: for motions, 75,000 vertices.
 
-    The error from what these few samples do not span is then larger than that of looser solves: for
-    a creature, a bar and a tripod of 250,000 to 400,000 tets, 160 samples of tolerance 1e-6 give
-    the same errors as of 1e-7, to 4 %, in two thirds of the time. With more samples the errors
-    grow: for a creature of 300,000 tets, 202 samples leave 0.0063 instead of 0.0043.
+    The error of spanning so little is then larger than that of looser solves. For a creature, a bar
+    and a tripod of 250,000 to 400,000 tets, 160 samples with a tolerance of 1e-6 give the same
+    errors as with 1e-7, to 4 %, in two thirds of the time. With more samples looser solves cost
+    accuracy: for a creature of 300,000 tets, 202 samples leave 0.0063 instead of 0.0043.
     """
     return usual_most_samples(problem) == FEWER_SAMPLES
 
 
 def usual_most_samples(problem: PosingProblem | InterpolationProblem) -> int:
-    """Default limit of samples: fewer on larger meshes, but at least 160.
+    """Default limit on samples: fewer on larger meshes, but at least 160.
 
-    More samples than the most dimensions need hardly help: with 375 and 750 of them a Spot with
-    three handles has an error of 0.0147 and 0.0144, an armadillo with 453 and 907 of 0.0022 and
-    0.0024. Fewer hurt: 188 and 376 leave 0.0064 and 0.0023 on the Dragon with three handles, and
-    185 and 371 leave 0.0027 and 0.0017 on the dog's head.
+    More samples than the largest dimension needs hardly help. A Spot with three handles has errors
+    of 0.0147 with 375 samples and 0.0144 with 750; an armadillo has 0.0022 with 453 and 0.0024 with
+    907. Fewer samples hurt: 188 and 376 leave 0.0064 and 0.0023 on the Dragon with three handles,
+    and 185 and 371 leave 0.0027 and 0.0017 on the dog's head.
     """
     plan = plan_of(problem)
     count = len(problem.mesh.vertices)
@@ -182,7 +183,7 @@ def usual_most_samples(problem: PosingProblem | InterpolationProblem) -> int:
 
 
 def predicted_most_samples(problem: PosingProblem | InterpolationProblem) -> int:
-    """Default limit of samples if a pilot predicts them, which takes less time for each."""
+    """Default limit on samples if a pilot predicts them, which takes less time for each."""
     plan = plan_of(problem)
     enough = min(plan.enough_samples, plan.predicted_vertices // len(problem.mesh.vertices))
     return max(usual_most_samples(problem), enough)

@@ -13,21 +13,21 @@ from ..snapshots import Snapshots
 from .dimension_search import MODES_PER_SOLUTION
 
 Model = PosingModel | InterpolationModel
-#: Makes a model of snapshots, with a dimension, and with the snapshots that train its energy.
+#: Makes a model from snapshots, a dimension, and the snapshots that train its energy.
 Make = Callable[[Snapshots, int, Snapshots], Model]
 
-#: A model that only predicts samples has at most so many dimensions, its energy is trained by so
-#: many snapshots, and it is made anew once there are so many times as many samples.
+#: Limits of a model that only predicts samples: its largest dimension, the number of snapshots that
+#: train its energy, and the growth of the samples after which it is made anew.
 MOST_DIMENSIONS = 64
 TRAINED = 24
 ENOUGH = 1.4
-#: A model that only predicts has all stars of a surface with no more than these. On the Centaur's
-#: 981 a fit takes 6 s, and all that it would save of the predictions 0.3 s.
+#: A model that only predicts has all stars of a surface with at most this many. On the Centaur's
+#: 981 stars a fit takes 6 s, and could save at most 0.3 s of the predictions.
 FEW_STARS = 2000
 
 
 def predicting_stars(problem: PosingProblem | InterpolationProblem) -> int | None:
-    """How many stars a model has that only predicts; None for the usual number, and for tets."""
+    """Number of stars of a model that only predicts; None for the usual number, and for tets."""
     if not has_stars(problem):
         return None
     stars = element_count(problem)
@@ -43,13 +43,13 @@ class Predicting:
 
     @property
     def latest(self) -> Model | None:
-        """The last one; None if there is none yet."""
+        """The last model; None if there is none yet."""
         return self._model
 
     def take(self, model: Model, solved: Snapshots) -> None:
-        """Takes the leading dimensions of a model that was made of these samples to meet a target.
+        """Keeps the leading dimensions of a model that was made from these samples for a target.
 
-        With 150 dimensions a prediction takes as long as the solve that it starts.
+        With 150 dimensions a prediction would take as long as the solve that starts from it.
         """
         if model.dimension > MOST_DIMENSIONS:
             model = model.leading(MOST_DIMENSIONS)
@@ -58,7 +58,8 @@ class Predicting:
     def model(self, solved: Snapshots | None, make: Make) -> Model | None:
         """The model that predicts the samples after these; None if there is none yet.
 
-        make : makes it, if there are enough more samples; not kept, for it may refer to this object
+        make : makes the model if there are enough new samples; not stored, since it may refer to
+        this object
         """
         count = 0 if solved is None else len(solved)
         if solved is not None and count >= ENOUGH * self._count:

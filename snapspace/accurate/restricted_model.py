@@ -18,11 +18,11 @@ from ..snapshots import Snapshots
 def restricted_model(
     model: PosingModel, problem: PosingProblem, surface: EmbeddedSurface | None
 ) -> PosingModel | None:
-    """A model of fewer handles, without solving or training; None if the problem asks for more.
+    """A model of fewer handles, without solving or training; None if the problem needs more.
 
-    A removed handle no longer pulls, and the shapes that it would take by itself are near those
-    that it was moved through. So the subspace and the tets of the energy serve as they are, for
-    motions within the old bounds.
+    Where a handle was removed, the body is free, and its shapes are near those with the handle
+    somewhere in its old range. So the subspace and the tets of the energy remain good for motions
+    within the old bounds.
 
     Parameters
     ----------
@@ -35,8 +35,9 @@ def restricted_model(
     Returns
     -------
     PosingModel or None
-        Its training samples are the model's, whose shapes feel the removed handles as well. None if
-        a handle is new or has wider bounds, another one is fixed, or the material differs.
+        Its training samples are the model's, whose shapes include the effect of the removed
+        handles. None if a handle is new or has wider bounds, another one is fixed, or the material
+        differs.
 
     Raises
     ------
@@ -62,10 +63,10 @@ def restricted_model(
 def with_starts(model: PosingModel, near: Snapshots, unjudged: NDArray[np.bool_]) -> PosingModel:
     """The model with reduced solutions as further training samples.
 
-    A restricted model needs them: jumps that start from the samples of more handles alone may end
-    in another minimum.
+    A restricted model needs them: jumps that start only from samples with more handles may end in
+    another minimum.
 
-    unjudged : (k,), which of the model's own training samples stay: those that do not judge it
+    unjudged : (k,), which of the model's own training samples stay: those that are not held out
     """
     parameters, coordinates = training_samples(model.problem, model.subspace, near)
     return replace(

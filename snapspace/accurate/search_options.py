@@ -1,4 +1,4 @@
-"""SearchOptions: what a search for an accurate model aims at."""
+"""SearchOptions: the target and limits of a search for an accurate model."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, kw_only=True)
 class SearchOptions:
-    """What to search for; None stands for the default.
+    """Target and limits of a search; None stands for the default.
 
     target_error, most_samples, budget, seed : as for `accurate_model`
     """

@@ -30,7 +30,7 @@ class Solving:
     def chosen(
         self, problem: PosingProblem | InterpolationProblem, *, judging: bool, predicted: bool
     ) -> SolverOptions:
-        """Options for samples that are held out, or else that a model predicts or not."""
+        """Options for samples that are held out; otherwise for predicted samples, or others."""
         if judging:
             return self.judging(problem)
         return self.seeded(problem) if predicted else self.usual(problem)
@@ -52,8 +52,8 @@ class Solving:
     def judging(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
         """Options for held-out samples.
 
-        They are solved more tightly: along soft modes a training sample may be as far off as a
-        model.
+        They are solved more tightly: along soft modes the error of a training sample may be as
+        large as that of a model.
         """
         tight = self._tight(problem)
         return replace(
@@ -71,7 +71,7 @@ class Solving:
         return given is not None and (given.tolerance, given.settling) != (None, None)
 
     def _tight(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
-        """The user's options, with the tolerance that the energy needs unless they decide it."""
+        """The user's options, with the tolerance that the energy needs unless they set one."""
         given = self.options or SolverOptions()
         if self._decided:
             return given
@@ -80,9 +80,10 @@ class Solving:
         )
 
     def loose(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
-        """Options for samples of a first impression.
+        """Options for samples of a preliminary model.
 
-        These stop by the energy: they are far from settling, and only the distance matters.
+        Their termination test is that of the energy: they are far from settled, and only the
+        distance matters.
         """
         usual = self.usual(problem)
         tolerance = max(usual.tolerance or 0.0, problem.solving.loose_tolerance)

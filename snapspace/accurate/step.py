@@ -9,7 +9,7 @@ from dataclasses import dataclass
 class Step:
     """The size and the errors of one model that was tried.
 
-    samples : number of samples solved by then
+    samples : number of samples solved so far
     dimension : d
     projection : relative error of the held-out samples' projections, the mean for blends and the
         median for motions

@@ -34,7 +34,7 @@ def trial_of(
     projection: float,
     threads: int | None,
 ) -> Trial:
-    """Compares a model with unseen full solutions, which get lower energies if it finds them.
+    """Compares a model with unseen full solutions; these become lower ones where it finds them.
 
     Numbers are those of `Step`.
     """

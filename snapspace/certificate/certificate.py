@@ -14,10 +14,10 @@ class Certificate:
     relative : `distance` divided by the frame's distance from the rest or mean shape
     upper_distance, upper_relative : upper bounds that hold with probability `confidence`
     confidence : that probability, for parameters drawn at random from the sampled domain
-    seconds : the time this took
+    seconds : time that the certificate took
 
-    The estimate is the median: the true distance is as often above as below it. Around single
-    frames a factor of two is usual.
+    The estimate is a median: the true distance is above it as often as below. For a single frame a
+    factor of two is usual.
     """
 
     distance: float

@@ -18,7 +18,7 @@ FloatArray = NDArray[np.float64]
 
 
 class ElementProbe(ResidualProbe):
-    """Takes the tets around the sampled vertices from the mesh, or the elements of a shell.
+    """The residual from the tets around the sampled vertices, or from the elements of a shell.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""ErrorEstimator: relates indicators of a frame to its true error, by solved samples."""
+"""ErrorEstimator: relates indicators of a frame to its true error, calibrated on solved samples."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class ErrorEstimator:
-    """Ratios of a model's true errors to one or two indicators, on samples it has not seen.
+    """Ratios of a model's true errors to one or two indicators, on unseen samples.
 
     Errors are root mean square distances, in the mesh's length unit.
 
@@ -28,7 +28,8 @@ class ErrorEstimator:
         residual and the distance from tau of each frame, see `growth_exponent`
     movement_ratios : (k,), true distances over the distances that a polish moves, or None if these
         were not measured; then there are no thorough certificates
-    exponent : of the residual; 1 as in earlier calibrations, whose ratios are to the residual
+    exponent : exponent of the residual. It is 1 in older calibrations, whose ratios are to the
+    residual
 
     Raises
     ------
@@ -65,7 +66,7 @@ class ErrorEstimator:
 
     @cached_property
     def rest(self) -> float:
-        """The size below which frames count as at rest, in the mesh's length unit."""
+        """The displacement below which frames count as at rest, in the mesh's length unit."""
         return rest_size(self.coordinates, self.mass)
 
     @cached_property

@@ -11,22 +11,23 @@ from ..arguments import is_number, shown
 
 FloatArray = NDArray[np.float64]
 
-#: Kernel widths that are tried, in median distances to the nearest known frame; with the last one
-#: all frames count the same.
+#: Kernel widths to try, in median distances to the nearest known frame. With the last one all
+#: frames have the same weight.
 WIDTHS = (0.5, 1.0, 2.0, 4.0, math.inf)
 #: A narrower kernel must improve the prediction of left-out ratios by this share.
 GAIN = 0.02
-#: Least weight of a frame, however far it is: far from all frames the mean is the plain one.
+#: Smallest weight of a frame: far from all frames, the kernel mean becomes the plain mean.
 FAR = 1e-3
 
 
 class LocalRatios:
     """Ratios of true errors to an indicator, smoothed over frames, with bounds.
 
-    A kernel mean of the logarithms by distance in the subspace (Nadaraya 1964, Watson 1964), of the
-    width that predicts left-out ratios best, and the jackknife+ of Barber, Candes, Ramdas &
-    Tibshirani (2021) around it. On unseen samples of a creature it raises the rank correlation of a
-    residual with the error from 0.47 to 0.65, of the helix from 0.48 to 0.72.
+    A kernel mean of the logarithms by distance in the subspace (Nadaraya 1964, Watson 1964), with
+    the width that predicts left-out ratios best. The bounds are those of the jackknife+ (Barber,
+    Candes, Ramdas & Tibshirani 2021). On unseen samples of a creature the mean raises the rank
+    correlation of the residual with the error from 0.47 to 0.65, and on the helix from 0.48 to
+    0.72.
 
     Parameters
     ----------
@@ -60,7 +61,7 @@ class LocalRatios:
         """
         rank = _rank(len(self._logs), confidence)
         kernel = self._kernel(np.linalg.norm(self._coordinates - q, axis=1), self._width)
-        # each prediction leaves out the frame whose surprise it gets
+        # each prediction leaves out a frame, and is paired with that frame's deviation
         sums = kernel @ self._logs - kernel * self._logs
         expected = np.sort(sums / (kernel.sum() - kernel) + self._surprises)
         return float(np.exp(np.median(expected))), float(np.exp(expected[rank - 1]))

@@ -15,7 +15,7 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class ProbePins:
-    """The sampled vertices in handles, among those that a probe knows; none for blending.
+    """The sampled vertices in handles, among those that a probe has; none for blending.
 
     pinned, handles : (p,) int32, their indices and those of their handles
     pulls : (p,), twice the weights of their springs
@@ -39,9 +39,9 @@ class ProbePins:
         Parameters
         ----------
         known : (c,)
-            The vertices that the probe knows, ascending.
+            The vertices that the probe has, ascending.
         sampled : (s,)
-            The sampled vertices, some of the known ones.
+            The sampled vertices, a subset of `known`.
         """
         if not isinstance(problem, PosingProblem):
             none = np.zeros(0, np.int32)
@@ -59,7 +59,7 @@ class ProbePins:
 
     @property
     def arguments(self) -> dict[str, NDArray[Any]]:
-        """What compiled probes take."""
+        """Arguments for the compiled probes."""
         return {
             "pinned": self.pinned,
             "handles": self.handles,

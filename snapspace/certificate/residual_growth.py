@@ -1,4 +1,4 @@
-"""How the error of a frame grows with its residual: faster than in proportion."""
+"""How the error of a frame grows with its residual: faster than linearly."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 Numbers = TypeVar("Numbers", float, FloatArray)
 
-#: The exponent of a linear problem, and how much it counts beside the samples: as much as those
-#: whose logarithms of residuals have this sum of squares.
+#: The exponent of a linear problem, and its weight: that of samples whose logarithms of residuals
+#: have this sum of squares.
 LINEAR, LINEAR_SPREAD = 1.0, 6.0
 #: Limits of an exponent.
 EXPONENTS = (1.0, 3.0)
@@ -23,9 +23,9 @@ def growth_exponent(residuals: FloatArray, distances: FloatArray, sizes: FloatAr
     """The exponent p of distance / size ~ (residual / size)^p, from calibration samples.
 
     Where a body is soft, for instance near buckling, the same forces move it farther, and the
-    residual is larger as well. So frames with large residuals are farther off than in proportion to
-    them. The exponent is the slope of the least-squares line through the logarithms, drawn towards
-    1 (ridge regression), since 16 samples alone do not determine it.
+    residual is larger as well. So the error grows faster than in proportion to the residual. The
+    exponent is the slope of the least-squares line through the logarithms, shrunk towards 1 (ridge
+    regression), since 16 samples alone do not determine it.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def growth_exponent(residuals: FloatArray, distances: FloatArray, sizes: FloatAr
 
 
 def rest_size(coordinates: FloatArray, mass: float) -> float:
-    """The size below which frames count as at rest: a thousandth of those of the calibration."""
+    """The size below which frames count as at rest: a thousandth of the calibration's sizes."""
     typical = float(np.sqrt((coordinates**2).sum(axis=1).mean() / mass))
     return max(REST * typical, float(np.finfo(np.float64).tiny))
 

@@ -14,9 +14,9 @@ FloatArray = NDArray[np.float64]
 class ResidualProbe:
     """The full objective's gradient at the vertices of a sample, for shapes of a subspace.
 
-    It has everything that the gradient at these vertices depends on, so it is exact there, for
-    every material. Takes about 1 ms on any mesh; the page has the same loops
-    (core/online/residual_probe.h). `residual_probe` makes one.
+    The probe has everything that the gradient at these vertices depends on, so it is exact there,
+    for every material. It takes about 1 ms on any mesh. The page has the same loops
+    (core/online/residual_probe.h). `residual_probe` makes a probe.
     """
 
     _core: core.ResidualProbe

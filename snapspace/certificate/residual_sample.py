@@ -12,7 +12,7 @@ from ..problem import InterpolationProblem, PosingProblem
 
 FloatArray = NDArray[np.float64]
 
-#: Number of sampled vertices. On the Dragon 128 of 32k say as much about the error as all do.
+#: Number of sampled vertices. On the Dragon 128 of 32k predict the error as well as all do.
 VERTICES = 128
 #: Share of the vertices drawn uniformly, so that every vertex may be drawn.
 UNIFORM = 0.1
@@ -26,8 +26,8 @@ class ResidualSample:
     weights : (s,) float64, positive, 1 / (s * probability * D_v)
 
     g is the gradient of the full objective, and D the diagonal of the scalar factor's matrix A. The
-    norm of g by D is the local part of its norm by A, and says as much about the error: on unseen
-    samples their rank correlations with it are alike.
+    norm of g by D is the local part of its norm by A, and predicts the error as well: on unseen
+    samples the rank correlations of both with the error are about the same.
     """
 
     vertices: NDArray[np.int32]
@@ -75,7 +75,7 @@ def residual_sample(
 def scalar_diagonal(problem: PosingProblem | InterpolationProblem) -> FloatArray:
     """D, (n,): the diagonal of the scalar matrix + 2 weights of pins, at tau.
 
-    Of blended shells it is the mean of those at rest in the poses.
+    For blended shells it is the mean of the diagonals at rest in the poses.
     """
     if isinstance(problem, PosingProblem):
         diagonal: FloatArray = problem.energy.core.scalar_diagonal()

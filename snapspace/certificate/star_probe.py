@@ -1,4 +1,4 @@
-"""StarProbe: the residual of a surface that is as rigid as possible."""
+"""StarProbe: the residual of an as-rigid-as-possible surface."""
 
 from __future__ import annotations
 
@@ -17,11 +17,12 @@ FloatArray = NDArray[np.float64]
 
 
 class StarProbe(ResidualProbe):
-    """Takes the stars around the sampled vertices, whose rotations turn the forces there.
+    """The residual from the stars around sampled vertices, whose rotations turn the forces there.
 
     The energy is a quadratic form plus a sum over stars, see `VertexStars`. So the gradient at a
     vertex is a linear function of the shape plus the stresses of the stars around it, times
-    vectors. Stars may be large, so it keeps their nine numbers for every mode, not their corners.
+    vectors. Stars may be large, so the probe stores their nine numbers for every mode, not their
+    corners.
 
     Attributes
     ----------
@@ -89,7 +90,7 @@ class StarProbe(ResidualProbe):
         nine = stars.gradients(displacements, self.stars)
         forces = stars.dirichlet_forces(displacements, self.vertices)
         own = nine.reshape(len(nine), 3, 3, -1)[self.part_stars]
-        # what a star's best affine map has of the Dirichlet energy is not in the quadratic form
+        # the quadratic form lacks the Dirichlet energy of a star's best affine map
         np.subtract.at(forces, parts.places, 2.0 * np.einsum("pabd,pb->pad", own, parts.vectors))
         pinned = self.pins.pinned
         moved = displacements.reshape(-1, 3, forces.shape[2])[self.vertices[pinned]]

@@ -36,7 +36,7 @@ class PosingSession(Session[PosingModel]):
     Notes
     -----
     A drag starts from the last frame's shape. A jump, longer than the spacing of the training
-    samples, starts from the lower in energy of the last shape and one interpolated between them.
+    samples, starts from the last shape or one between them, whichever is lower in energy.
     """
 
     _maps: FloatArray  # (h, 3, 4), maps of world positions
