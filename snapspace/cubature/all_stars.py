@@ -13,18 +13,19 @@ from .blended_stars import BlendedStars
 from .cubature import Cubature
 from .elements import element_count, elements_of, has_stars
 
-#: Blends have all stars where the usual number is at least this share of them. Frames then take at
-#: most twice as long, have no error of a cubature, and a model of the Centaur is made in 1.1
-#: instead of 6.2 s. Fits of posed surfaces take less time than that: there it is all or none.
+#: Blends use all stars if the usual number is at least this share of them. Frames then take at most
+#: twice as long and have no cubature error, and a model of the Centaur is made in 1.1 instead of
+#: 6.2 s. Posed surfaces, whose fits are faster, use all stars only if the usual number reaches
+#: them.
 SHARE = 0.5
 
 
 def takes_all_stars(
     problem: PosingProblem | InterpolationProblem, wanted: int | None, usual: int
 ) -> bool:
-    """Whether a cubature has all stars of a surface that is as rigid as possible.
+    """Whether a cubature uses all stars of an as-rigid-as-possible surface.
 
-    wanted : the most stars that it may choose, or None for the usual number
+    wanted : the largest number of stars to choose, or None for the usual number
     """
     if not has_stars(problem):
         return False
@@ -46,7 +47,7 @@ def blended_stars(problem: InterpolationProblem, subspace: AffineSubspace) -> Bl
 
 
 def record_of(cubature: Cubature | BlendedStars, seconds: float) -> dict[str, Any]:
-    """For a model's provenance: as of a trained one, but there are no errors."""
+    """For a model's provenance: like the record of a trained cubature, but without errors."""
     return {"tets": len(cubature.tets), "trained_states": 0, "rows": 0, "seconds": seconds}
 
 

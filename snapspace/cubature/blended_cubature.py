@@ -43,10 +43,10 @@ class BlendedCubature(BlendedElements):
     rows : (r, 9, d) float32, or LocalRows
         Displacement gradients of the modes against the first pose, see `displacement_gradients`.
     material : Material or ShellMaterial
-        The density of these tets, with constant moduli or r values of each; of a shell that of the
-        first pose.
+        The density of these tets, with constant moduli or r values of each; for a shell, the
+        density of the first pose.
     corners : (poses + 1, r, 4, 3) float64
-        Corners of the tets in every pose, and last in the mean shape.
+        Corners of the tets in every pose, followed by those in the mean shape.
 
     Raises
     ------

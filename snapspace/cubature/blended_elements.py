@@ -14,7 +14,7 @@ FloatArray = NDArray[np.float64]
 
 
 class BlendedElements(ABC):
-    """What the blended sums over tets, over a shell's elements and over stars share."""
+    """Base of the blended sums over tets, over a shell's elements and over stars."""
 
     _core: core.BlendedFunction
 

@@ -1,4 +1,4 @@
-"""The blended energy of a surface that is as rigid as possible, summed over a few stars."""
+"""The blended energy of an as-rigid-as-possible surface, summed over a few stars."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ FloatArray = NDArray[np.float64]
 class BlendedStars(BlendedElements):
     """sum_k w_k E_k(tau + U q) of `ARAP` as a sum over the same few stars in all poses.
 
-    What stars leave of the energy is a quadratic form, and exact; see `VertexStars`. The rotations
-    of a star differ from pose to pose, so an evaluation costs 18 r d multiply-adds for r stars and
+    The rest of the energy is a quadratic form, which is exact; see `VertexStars`. The rotations of
+    a star differ from pose to pose, so an evaluation costs 18 r d multiply-adds for r stars and
     each pose whose weight is not zero.
 
     Parameters
     ----------
     tets : (r,) int32
-        Which stars of the surface, ascending: with rings, the vertices that they are around.
+        Indices of the stars, ascending. With one-rings, these are their central vertices.
     weights : (r,) float64
         The area in the first pose that each star stands for, > 0.
     rows : (poses, r, 9, d) float32
@@ -39,7 +39,7 @@ class BlendedStars(BlendedElements):
     origins : (poses, r, 9) float64
         The nine numbers of the mean shape, displaced from each pose.
     forms : (poses, d + 1, d + 1) float64
-        What the stars leave of each energy: (q, 1)^T M (q, 1) with a symmetric matrix M.
+        The rest of each energy: (q, 1)^T M (q, 1) with a symmetric matrix M.
 
     Raises
     ------
@@ -134,9 +134,9 @@ class BlendedStars(BlendedElements):
     def dirichlet_forms(self) -> FloatArray:
         """The Dirichlet energies of the poses, q^T D q: matrices (poses, d, d).
 
-        A pose's energy is its Dirichlet energy less what the rotations leave, which grows only
-        linearly. So a weighted sum of energies has a minimum if that of these matrices is positive
-        definite, and none if it is indefinite.
+        A pose's energy is its Dirichlet energy minus a term from the rotations, which grows only
+        linearly. So a weighted sum of energies has a minimum if the same sum of these matrices is
+        positive definite, and none if it is indefinite.
         """
         d, moduli = self.dimension, self.material.moduli[:, 0].reshape(self.poses, -1)
         scaled = self.rows * np.sqrt(moduli * self.weights)[..., None, None]
@@ -164,6 +164,6 @@ class BlendedStars(BlendedElements):
         )
 
     def without_form(self) -> BlendedStars:
-        """The sum over stars alone."""
+        """The sum over stars alone, without the quadratic form."""
         forms = np.zeros_like(self.forms)
         return BlendedStars(self.tets, self.weights, self.rows, self.material, self.origins, forms)

@@ -1,4 +1,4 @@
-"""ChosenColumns: the columns that a nonnegative fit has chosen, with their products."""
+"""ChosenColumns: the columns that a nonnegative fit has chosen, and their inner products."""
 
 from __future__ import annotations
 
@@ -19,9 +19,8 @@ PART, CHOSEN_PART = 512, 128
 class ChosenColumns:
     """Some of the candidate columns in double precision, and their products with each other.
 
-    A column stays in its row of the memory until it is removed, and then another one takes the row:
-    to move rows together would take as long as their products. All sums are the same in any number
-    of threads.
+    A column stays in its row of memory until it is removed, and a later one reuses the row. Moving
+    rows together would take as long as their products. Sums are the same for any number of threads.
 
     Parameters
     ----------
@@ -30,7 +29,7 @@ class ChosenColumns:
     target : (k,)
         The vector to fit.
     most : int
-        The most columns that are chosen at the same time.
+        The largest number of columns that are chosen at the same time.
     threads : int, optional
         Default: all.
     """
@@ -75,7 +74,7 @@ class ChosenColumns:
         columns = self._columns[fresh].astype(np.float64)
         self._own[new] = columns
         self._moments[new] = columns @ self._target
-        # products with rows of no column mean nothing
+        # products with unused rows mean nothing
         products = self._in_parts(self._own[: self._used], columns.T, CHOSEN_PART)
         self._products[: self._used, new] = products
         self._products[new, : self._used] = products.T
@@ -86,7 +85,7 @@ class ChosenColumns:
         self._rows = self._rows[kept]
 
     def residual(self, weights: FloatArray) -> FloatArray:
-        """The target less the weighted sum of the chosen columns, (k,)."""
+        """The target minus the weighted sum of the chosen columns, (k,)."""
         by_row = np.zeros(self._used)
         by_row[self._rows] = weights
         return self._target - by_row @ self._own[: self._used]
@@ -97,7 +96,7 @@ class ChosenColumns:
         return int(self._rows.max(initial=-1)) + 1
 
     def _in_parts(self, rows: NDArray[Any], others: NDArray[Any], part: int) -> NDArray[Any]:
-        """rows @ others, so many rows at a time, on all threads."""
+        """rows @ others, in parts of several rows, on all threads."""
         starts = range(0, len(rows), part)
         with ThreadPoolExecutor(max_workers=self._workers) as pool:
             return np.concatenate([*pool.map(lambda at: rows[at : at + part] @ others, starts)])

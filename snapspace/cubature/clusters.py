@@ -29,7 +29,7 @@ def _halves(points: FloatArray, own: IndexArray, size: int) -> list[IndexArray]:
     centred = points[own] - points[own].mean(axis=0)
     axis = np.linalg.eigh(centred.T @ centred)[1][:, -1]
     place = centred @ (axis * np.sign(axis[np.abs(axis).argmax()]))
-    # Rounded, so that last bits do not decide between points at the same place.
+    # Rounded, so that rounding errors do not decide between points at the same place.
     place = np.round(place / max(np.abs(place).max(), np.finfo(float).tiny), 9)
     ranked = own[np.argsort(place, kind="stable")]
     return _halves(points, ranked[:first], size) + _halves(points, ranked[first:], size)

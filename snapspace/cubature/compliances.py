@@ -20,17 +20,17 @@ FloatArray = NDArray[np.float64]
 
 #: Number of tets of the first estimate of Hessians.
 SAMPLED = 1000
-#: Lower bound of a Hessian's eigenvalues, as a share of the least one at tau. Sampling may leave a
-#: soft direction without stiffness, and compression may make it negative.
+#: Lower bound of a Hessian's eigenvalues, as a share of the smallest one at tau. Sampling may leave
+#: a soft direction without stiffness, and compression may make its stiffness negative.
 LEAST = 0.3
 
 
 def sampled_energy(states: ElasticStates, ordered: NDArray[np.int32]) -> Cubature | BlendedSum:
-    """The energy summed over a sample of tets: one half has the largest forces.
+    """The energy summed over a sample of tets: half of them are those with the largest forces.
 
-    Along a soft direction the contributions of tets cancel, and a sample of them may be far off: at
-    a state of a dog with handles at its tips, six eigenvalues are below the bound `LEAST`, and none
-    is with all tets. A fit of forces that is measured with this energy is close to all tets.
+    Along a soft direction the contributions of tets cancel, and a sample may be far off: at one
+    state of a dog with handles at its tips, six eigenvalues are below the bound `LEAST`; with all
+    tets none is. A fit whose force errors are measured by this energy is close to all tets.
 
     ordered : (m,) tets in the order of `tets_by_force`
     """
@@ -45,10 +45,10 @@ def compliances(
 ) -> FloatArray:
     """Inverse reduced Hessians (s, d, d) of the objective at states.
 
-    Soft directions differ from state to state: they turn with a part that bends, and in the Lion's
-    tail blends differ by a factor of five along the same direction. With the compliance of the rest
-    or the mean shape for all states, cubatures of 500 tets have twice the error on the Dragon
-    (d = 120), and on four poses of the Lion.
+    Soft directions differ from state to state: they turn with a part that bends, and along one
+    direction of the Lion's tail the stiffness of blends differs by a factor of five. With the
+    compliance of the rest or the mean shape for all states, cubatures of 500 tets have twice the
+    error on the Dragon (d = 120), and on four poses of the Lion.
 
     Parameters
     ----------

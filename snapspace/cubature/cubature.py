@@ -41,7 +41,7 @@ class Cubature:
     material : Material or ShellMaterial
         The density of these tets, with constant moduli or r values of each.
     remainder : (d, d), optional
-        What is left of the energy, q^T K q, see `Elements`. Default: nothing.
+        Matrix K of the rest of the energy, q^T K q, see `Elements`. Default: nothing.
 
     Raises
     ------
@@ -79,8 +79,8 @@ class Cubature:
     ) -> Cubature:
         """Makes the cubature of some tets for a subspace attached to the rest shape.
 
-        With all tets, weighted by their volumes, it is the exact energy. What they leave of the
-        energy, see `Elements`, and the rows are computed if they are not given.
+        With all tets, weighted by their volumes, it is the exact energy. The rows, and the rest of
+        the energy, see `Elements`, are computed if they are not given.
 
         Raises
         ------
@@ -110,7 +110,7 @@ class Cubature:
 
     @property
     def core_rows(self) -> core.TetRows:
-        """The rows as compiled energies take them."""
+        """The rows in the form that compiled energies need."""
         return core_rows(self.stored_rows)
 
     @property

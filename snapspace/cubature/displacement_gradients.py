@@ -16,9 +16,9 @@ def displacement_gradients(
 ) -> NDArray[np.float32]:
     """Gradients d u_a / d x_b of all modes in tets (r,), (r, 9, d) float32, entry 3 a + b.
 
-    A tet's rows times q give the displacement gradient of U q, which is constant in the tet. They
-    are formed from differences of nodal values: sums over the four vertices would lose digits on
-    slivers. For the elements of a shell see core/element/rest_shell.h.
+    A tet's rows times q give the displacement gradient of U q, which is constant in the tet. The
+    rows are formed from differences of nodal values, since sums over the four vertices would lose
+    digits on slivers. For the elements of a shell see core/element/rest_shell.h.
     """
     modes = np.ascontiguousarray(basis.T)
     rows: NDArray[np.float32] = core.mode_gradients(

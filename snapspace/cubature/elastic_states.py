@@ -36,7 +36,7 @@ class GroupForces:
 
 
 class ElasticStates(Protocol):
-    """Some reduced states of a problem, with all that its energy depends on."""
+    """Some reduced states of a problem, with everything that its energy depends on."""
 
     @property
     def problem(self) -> PosingProblem | InterpolationProblem:
@@ -57,7 +57,7 @@ class ElasticStates(Protocol):
 
     @property
     def floor(self) -> float:
-        """Errors of smaller energies are relative to this energy."""
+        """Smallest energy that errors are relative to."""
         ...
 
     def chosen(self: States, which: NDArray[np.intp]) -> States:
@@ -65,7 +65,7 @@ class ElasticStates(Protocol):
         ...
 
     def with_forces(self: States) -> States:
-        """States, including these, whose forces show how large forces are."""
+        """These states and more, whose forces show how large forces are."""
         ...
 
     def stresses(self, state: int, displacement: FloatArray) -> FloatArray:
@@ -126,7 +126,7 @@ class PosingStates:
         return replace(self, coordinates=np.zeros((1, self.subspace.dimension)))
 
     def with_forces(self) -> PosingStates:
-        """The states themselves: elastic forces balance those of the handles."""
+        """The states themselves, whose elastic forces balance those of the handles."""
         return self
 
     def stresses(self, state: int, displacement: FloatArray) -> FloatArray:

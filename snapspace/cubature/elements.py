@@ -1,4 +1,4 @@
-"""Elements: what a cubature is a sum over."""
+"""Elements: the terms of the sum that a cubature approximates."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class PosedElements(Elements, Protocol):
         ...
 
     def remainder(self, basis: FloatArray) -> FloatArray | None:
-        """What the elements leave of the energy, q^T K q: a matrix (d, d), or None for nothing."""
+        """The energy that is not in the elements, q^T K q: a matrix (d, d), or None for nothing."""
         ...
 
 
@@ -73,7 +73,7 @@ class MeshElements:
 
 @dataclass(frozen=True)
 class StarElements:
-    """The stars of a surface that is as rigid as possible; see `PosedElements`."""
+    """The stars of an as-rigid-as-possible surface; see `PosedElements`."""
 
     stars: VertexStars
 
@@ -126,20 +126,20 @@ def elements_of(problem: PosingProblem | InterpolationProblem) -> Elements:
 
 
 def posed_elements_of(problem: PosingProblem) -> PosedElements:
-    """The elements whose sum is the energy of a posing problem, with what they leave of it."""
+    """The elements of a posing problem, with the energy that is not in them."""
     if problem.energy.stars is not None:
         return StarElements(problem.energy.stars)
     return MeshElements(problem.mesh, problem.element_material)
 
 
 def element_count(problem: Problem) -> int:
-    """How many elements a cubature may choose from."""
+    """Number of elements that a cubature may choose from."""
     assert isinstance(problem, PosingProblem | InterpolationProblem)
     return len(elements_of(problem).measures)
 
 
 def has_stars(problem: Problem) -> bool:
-    """Whether the elements are stars: of a surface that is as rigid as possible."""
+    """Whether the elements are stars, those of an as-rigid-as-possible surface."""
     return is_of_stars(problem.mesh, problem.material)
 
 

@@ -9,17 +9,17 @@ from .state_forces import state_forces
 
 
 def finite_states(states: States, fewest: int, *, threads: int | None = None) -> States:
-    """The states without those of infinite energy, which no cubature can be trained on.
+    """The states of finite energy; no cubature can be trained on the others.
 
-    A material with a barrier is infinite where a tet is inverted. Solutions have no such tet, but
-    their projections into a small subspace may.
+    The energy of a material with a barrier is infinite if a tet is inverted. Solutions have no such
+    tet, but their projections onto a small subspace may.
 
     Parameters
     ----------
     states : ElasticStates
         Projected snapshots.
     fewest : int
-        How many a cubature needs.
+        Number of states that a cubature needs.
     threads : int, optional
         Default: all.
 
@@ -32,7 +32,7 @@ def finite_states(states: States, fewest: int, *, threads: int | None = None) ->
     if not material.barrier:
         return states
     found = state_forces(states.with_forces(), np.zeros(0, np.int32), threads=threads)
-    # forces of blends are taken twice at each state, with other weights
+    # forces of blends are evaluated twice at each state, with different weights
     finite = np.isfinite(found.energies.reshape(len(states), -1)).all(axis=1)
     if finite.all():
         return states

@@ -20,15 +20,16 @@ from .training import Training, repeated
 
 FloatArray = NDArray[np.float64]
 
-#: Number of force rows per wanted tet, and how many there are before each has only two: on Lion,
-#: dog and Spot with 1600 to 2000 tets three leave the same errors and take a fifth longer.
+#: Number of force rows per wanted tet, and the total beyond which each has only two. On Lion, dog
+#: and Spot with 1600 to 2000 tets, three rows leave the same errors and take a fifth longer.
 ROWS, MANY_ROWS = 3, 4000
-#: Share of the wanted tets that a rough fit takes, and its force rows per tet.
+#: Share of the wanted tets in a rough fit, and its force rows per tet.
 ROUGH, ROUGH_ROWS = 0.5, 2
-#: Most snapshots that are held out.
+#: Largest number of snapshots that are held out.
 HELD_OUT = 20
-#: Most candidates: the rows of each take 16 KB for 2000 wanted tets. With 10,000 a fit of 2000 tets
-#: ends with 1050 on a dog with handles at its tips, since all others would get negative weights.
+#: Largest number of candidates: the rows of each take 16 KB for 2000 wanted tets. With 10,000
+#: candidates, a fit of 2000 tets ends with 1050 on a dog with handles at its tips, since all others
+#: would get negative weights.
 MOST_CANDIDATES = 20_000
 #: One snapshot in this many is held out, so at least this many are needed.
 FEWEST_SNAPSHOTS = 10
@@ -36,14 +37,14 @@ FEWEST_SNAPSHOTS = 10
 
 @dataclass(frozen=True)
 class Budget:
-    """How many tets to choose, and what they are chosen from.
+    """How many tets to choose, from how many candidates and states.
 
     wanted : number of tets, or None for the usual number
     usual : usual number of tets
-    fewest_states : fewest states that a cubature needs
-    most_trained : most states that it is trained on
+    fewest_states : smallest number of states that a cubature needs
+    most_trained : largest number of states that it is trained on
     candidates : number of candidate tets per wanted tet
-    many_candidates : how many there are before each wanted tet has only ten
+    many_candidates : number of candidates beyond which each wanted tet has only ten
     """
 
     wanted: int | None
@@ -54,7 +55,7 @@ class Budget:
     many_candidates: int
 
     def candidate_count(self, count: int) -> int:
-        """How many candidates there are for `count` wanted tets."""
+        """Number of candidates for `count` wanted tets."""
         some = min(self.candidates * count, max(self.many_candidates, 10 * count))
         return max(min(some, MOST_CANDIDATES), count)
 
@@ -99,11 +100,11 @@ def fit_tets(
 ) -> Fit[States]:
     """Chooses tets and volumes by some of the states, and holds others out.
 
-    A fit measures errors of forces as displacements, which takes Hessians of the energy at its
-    states. Those of a random sample of the tets may be negative along soft directions; those of a
-    fit are close to the energy's. So a rough fit, measured by a sample, measures the final one. On
-    a dog with handles at its tips errors are then 0.0013 instead of 0.0059; with the Hessians of
-    all tets they are 0.0012.
+    A fit measures errors of forces as displacements, which needs Hessians of the energy at its
+    states. The Hessians of a random sample of tets may be negative along soft directions; those of
+    a fitted cubature are close to the energy's. So a rough fit uses the Hessians of a sample, and
+    the final fit those of the rough fit. On a dog with handles at its tips errors are then 0.0013
+    instead of 0.0059; with the Hessians of all tets they are 0.0012.
 
     Raises ValueError for too few states, or for more tets than the mesh has.
     """
@@ -143,7 +144,7 @@ def fit_tets(
 
 
 def _row_count(count: int) -> int:
-    """How many force rows there are for `count` wanted tets, at most."""
+    """Largest number of force rows for `count` wanted tets."""
     return max(min(ROWS * count, MANY_ROWS), 2 * count)
 
 

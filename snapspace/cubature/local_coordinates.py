@@ -1,4 +1,4 @@
-"""with_local_coordinates: lets neighbouring tets of a cubature share few coordinates."""
+"""with_local_coordinates: neighbouring tets of a cubature share a few coordinates."""
 
 from __future__ import annotations
 
@@ -22,15 +22,16 @@ from .local_rows import LocalRows
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.intp]
 
-#: Fewest numbers of rows, four megabytes: smaller ones stay in a core's caches.
+#: Smallest number of entries, four megabytes: smaller rows stay in a core's caches.
 FEWEST_NUMBERS = 1_000_000
-#: Most tets of a cluster. With 32, 48, 64 and 88 tets evaluations take 0.42, 0.42, 0.46 and 0.46 of
-#: the time on the Armadillo, and errors are alike (docs/notes/local-coordinates.md).
+#: Largest number of tets in a cluster. With 32, 48, 64 and 88 tets evaluations take 0.42, 0.42,
+#: 0.46 and 0.46 of the time on the Armadillo, and errors are about the same
+#: (docs/notes/local-coordinates.md).
 CLUSTER = 48
 #: What may be left out of a cluster: a motion of unit energy by this share; displacement gradients
 #: at the states, and stresses there, in units of the root of the mean energy of all tets.
 OF_MOTIONS, OF_GRADIENTS, OF_STRESSES = 0.1, 0.001, 0.01
-#: Most states that are looked at.
+#: Largest number of states that are used.
 STATES = 200
 
 
@@ -45,19 +46,19 @@ def with_local_coordinates(
     fewest: int = FEWEST_NUMBERS,
     threads: int | None = None,
 ) -> Energy:
-    """The same sum over tets, with local coordinates if its rows are large; else as it is.
+    """The same sum over tets, with local coordinates if its rows are large; otherwise unchanged.
 
-    Tets near each other see few combinations of the modes. A cluster's local coordinates span, up
-    to what may be left out, the displacement gradients and the stresses of its tets at the states,
-    and all motions, measured by the compliance at tau. What is left out of displacement gradients
-    is orthogonal to these stresses, so that it does no work at the states.
+    Tets near each other depend on few combinations of the modes. A cluster's local coordinates
+    span, up to what may be left out, the displacement gradients and the stresses of its tets at the
+    states, and all motions, measured by the compliance at tau. What is left out of displacement
+    gradients is orthogonal to these stresses, so that it does no work at the states.
 
     Parameters
     ----------
     energy : Cubature, BlendedCubature or BlendedStars
-        A trained sum; that over the stars of a blend stays as it is.
+        A trained sum. A sum over the stars of a blend stays as it is.
     states : ElasticStates
-        States near those of use. At most 200 of them, evenly spread, are looked at.
+        States like those in use. At most 200 of them, evenly spread, are used.
     fewest : int, default 1,000,000
         Rows of fewer numbers stay as they are.
     threads : int, optional
@@ -104,7 +105,7 @@ class _Parts:
         typical = float(np.median(stiffnesses))
         if typical <= 0.0 or not stresses.any():
             return None
-        # Tets that a pose squeezes are far stiffer, and the curvature of some may be negative.
+        # Tets that a pose compresses are far stiffer, and some may have negative curvature.
         scales = np.sqrt(np.maximum(stiffnesses, 1e-6 * typical))
         stresses = stresses / scales[:, None]
         unit = np.linalg.norm(stresses)
@@ -121,7 +122,7 @@ class _Parts:
 
     def local(self, own: IndexArray) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Maps (t, 9, rank) of some tets from their local coordinates, and modes (rank, d)."""
-        # Forces see no stresses beside the span of the displacement gradients.
+        # Forces do not depend on stresses outside the span of the displacement gradients.
         span, inside = np.linalg.qr(self.scaled[own].reshape(9 * len(own), -1))
         stresses = span.T @ self.stresses[:, own].reshape(len(self.stresses), -1).T
         columns = np.concatenate([inside @ self.root, stresses], axis=1)

@@ -1,4 +1,4 @@
-"""LocalRows: displacement gradients of tets that share few local coordinates."""
+"""LocalRows: displacement gradients of tets that share a few local coordinates."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ MOST = 0.8
 
 @dataclass(frozen=True, eq=False)
 class LocalRows:
-    """Displacement gradients of modes in tets, cluster by cluster, as products of two maps.
+    """Displacement gradients of modes in tets, one product of two maps per cluster.
 
-    The first map takes the reduced coordinates q (d,) to the local coordinates of a cluster, few
-    linear combinations of them; the second one takes these to the displacement gradients of its
-    tets. An evaluation reads both instead of nine rows of d numbers for each tet.
+    The first map takes the reduced coordinates q (d,) to the local coordinates of a cluster, a few
+    linear combinations of q. The second map takes these to the displacement gradients of its tets.
+    An evaluation reads both maps instead of nine rows of d numbers for each tet.
 
     sizes : (k, 2) int32, numbers of tets and of local coordinates (rank) of each cluster. Numbers
         of tets are multiples of eight, except the last.
@@ -51,12 +51,12 @@ class LocalRows:
 
     @property
     def numbers(self) -> int:
-        """How many numbers an evaluation reads; without clusters they are 9 r d."""
+        """Number of entries that an evaluation reads; without clusters it is 9 r d."""
         return self.rows.size + self.modes.size
 
     @property
     def saves(self) -> bool:
-        """Whether they are few enough to be worth their error: see `MOST`."""
+        """Whether the saving is worth the error: see `MOST`."""
         return self.numbers <= MOST * 9 * self.tets * self.dimension
 
     @cached_property

@@ -15,9 +15,11 @@ IndexArray = NDArray[np.intp]
 
 #: Share of the wanted columns that are added before the weights are recomputed.
 BATCH = 0.2
-#: Share that may be missing at the end: the last columns would take as many rounds as all others.
+#: Share of the wanted columns that may be missing at the end: the last ones would take as many
+#: rounds as all others.
 MISSING = 0.02
-#: Added to the diagonal of the scaled normal equations: nearly equal columns share a weight.
+#: Added to the diagonal of the scaled normal equations, so that nearly equal columns share a
+#: weight.
 RIDGE = 1e-9
 
 
@@ -36,11 +38,10 @@ def nonnegative_fit(
     (Bruckstein, Elad, Zibulevsky 2008): each step adds a batch of columns, drawn at random in
     proportion to their positive products with the residual. Then all weights are recomputed by
     non-negative least squares (Lawson & Hanson 1974), which may remove columns again.
-    The columns with the largest products are much alike, so that one of them makes most others
-    superfluous: two thirds or more of a batch of these are removed at once, and fits take up to
-    three times as long.
-    Products are not divided by the columns' norms, so that tets that hardly carry a force cannot
-    get huge weights.
+    Batches are random because the columns with the largest products are very similar, and one of
+    them makes most others superfluous: two thirds or more of a batch of these would be removed at
+    once, and fits would take up to three times as long. Products are not divided by the columns'
+    norms, so that tets that hardly carry a force cannot get huge weights.
 
     Parameters
     ----------
@@ -49,7 +50,7 @@ def nonnegative_fit(
     target : (k,)
         The vector to fit.
     count : int, >= 1
-        Most columns to choose.
+        Largest number of columns to choose.
     seed : int, default 0
         Seed of the random batches.
     threads : int, optional
@@ -102,7 +103,8 @@ def nonnegative_weights(
 
     The matrix is factored once. Without the columns R, the minimum is that of all columns minus
     A_R (A_RR)^-1 x_R, where A is the inverse matrix, so each column that leaves takes one solve.
-    Columns that would become negative are likely to leave next, so they are solved for together.
+    Columns whose weights would become negative are likely to leave next, so their columns of the
+    inverse are solved for together.
     """
     scale = 1.0 / np.sqrt(np.diag(gram))
     matrix = gram * scale[:, None]
@@ -156,7 +158,7 @@ def drawn(products: NDArray[np.float32], count: int, rng: np.random.Generator) -
     are a weighted sample without repetition (Efraimidis & Spirakis 2006).
     """
     positive = np.flatnonzero(products > 0)
-    # One time for each entry, positive or not: where rounding changes a sign, other times stay.
+    # One time for each entry, positive or not: if rounding changes a sign, the other times stay.
     times = rng.exponential(size=len(products))[positive] / products[positive]
     first = np.argsort(times, kind="stable")[:count]
     return np.sort(positive[first])

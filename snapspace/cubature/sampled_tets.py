@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class SampledTets:
-    """A sample that stands for all tets.
+    """A sample that represents all tets.
 
     tets : (c,) int32, ascending
-    factors : (c,), how many tets each stands for; they sum to the number of all tets
+    factors : (c,), the number of tets that each represents; they sum to the number of all tets
     """
 
     tets: NDArray[np.int32]
@@ -25,12 +25,12 @@ LARGEST = 0.5
 
 
 def sampled_tets(ordered: NDArray[np.int32], count: int, *, seed: int) -> SampledTets:
-    """Draws a sample: half are the first of the ordered tets, and half are random others.
+    """Draws a sample: half of it are the first tets in order, and half are random others.
 
-    The first ones stand only for themselves. Forces of tets differ by many powers of ten: with
+    The first ones represent only themselves. Forces of tets differ by many powers of ten: with
     random tets alone the error doubles on the Dragon (d = 120) and on the Elephant. The largest
-    alone leave parts without a candidate: a long bar then has six times the error, and the Lion,
-    where a pose squeezes a few tets, five times.
+    forces alone leave parts of a body without a candidate: a long bar then has six times the error,
+    and the Lion, where a pose compresses a few tets, five times.
 
     Parameters
     ----------

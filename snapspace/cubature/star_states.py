@@ -1,4 +1,4 @@
-"""BlendedStarStates: states of a blended surface that is as rigid as possible."""
+"""BlendedStarStates: states of a blended as-rigid-as-possible surface."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ IntArray = NDArray[np.int32]
 
 @dataclass(frozen=True)
 class BlendedStarStates(BlendingStates):
-    """States of blended poses whose elements are stars: nine numbers of each, for each pose.
+    """States of blended poses whose elements are stars, with nine numbers per star and pose.
 
     Stresses (m, 9 poses) are those of the poses one after the other, times their weights. Energies
-    and forces are those of the stars, without the quadratic form that they leave.
+    and forces are those of the stars, without the quadratic form of the rest.
 
     forms : (poses, d + 1, d + 1), that form, see `BlendedStars`
     """

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..blas import single_threaded_blas
 from .elastic_states import ElasticStates
 
-#: Number of states whose forces decide the order.
+#: Number of states whose forces determine the order.
 PILOTS = 12
 
 

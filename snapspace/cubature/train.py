@@ -29,43 +29,44 @@ FloatArray = NDArray[np.float64]
 #: Default number of tets per dimension. On the Dragon, d = 120, solutions are then as close to the
 #: full ones as those of the exact energy.
 TETS_PER_DIMENSION = 8
-#: The same where that gives more than so many tets. With 1000 tets for 207 and 250 dimensions
-#: errors are 1.1 to 1.9 times as large on four bodies. With 8 d they are up to a fifth smaller, and
-#: frames take up to a quarter longer.
+#: The same where 8 d exceeds this many tets. With 1000 tets for 207 and 250 dimensions, errors are
+#: 1.1 to 1.9 times as large on four bodies. With 8 d they are up to a fifth smaller, and frames
+#: take up to a quarter longer.
 MANY_TETS, FURTHER_TETS_PER_DIMENSION = 1000, 6.5
 #: The same for shells, whose membrane and bending each need their share. On Spot, 829 vertices, d =
 #: 120, thickness 3 % and 1.5 % of the diagonal, the cubature's part of live errors is 0.0008 and
-#: 0.0026; with 8 it is 0.0022 and 0.0068, with 16 it is 0.0002 and 0.0011. Surfaces that are as
-#: rigid as possible take as many stars as solids take tets: on Spot, 11533 vertices, d = 120, the
-#: cubature's part is 0.006, 0.0008 and 0.0004 with 4, 8 and 12.
+#: 0.0026; with 8 it is 0.0022 and 0.0068, with 16 it is 0.0002 and 0.0011. As-rigid-as-possible
+#: surfaces use as many stars as solids use tets: on Spot, 11533 vertices, d = 120, the cubature's
+#: part is 0.006, 0.0008 and 0.0004 with 4, 8 and 12.
 ELEMENTS_PER_DIMENSION, MOST_ELEMENTS = 12, 1500
-#: The same for blends. Stars keep an exact form, so they take as many as in posing: with 15 d the
-#: Lion's mean errors are 0.015 and 0.009 (d = 40 and 60), with 8 d 0.015 and 0.010, in half the
-#: time a frame.
+#: The same for blends. Blends of stars, whose quadratic form is exact, need only as many as posing:
+#: the Lion's mean errors are 0.015 and 0.009 with 15 d (d = 40 and 60), and 0.015 and 0.010 with 8
+#: d, in half the time per frame.
 TETS_PER_BLENDED_DIMENSION = 15
-#: Most tets of blends by default: the time of an evaluation is proportional to their number.
+#: Largest default number of tets for blends: the time of an evaluation is proportional to it.
 MOST_BLENDED_TETS = 1000
-#: Most motions to train on, candidates per wanted tet, and how many there are before each has only
-#: ten. Errors on Dragon, Spot, Elephant, Armadillo, dog head and hand are the same as with 200
-#: motions and twice as many candidates. With at most 10,000 for up to 1000 tets, errors are a tenth
-#: to a third larger on the Dragon and on a dog with handles at its tips, and the same elsewhere.
+#: Largest number of motions to train on, candidates per wanted tet, and the number of candidates
+#: beyond which each tet has only ten. Errors on Dragon, Spot, Elephant, Armadillo, dog head and
+#: hand are the same as with 200 motions and twice as many candidates. With at most 10,000
+#: candidates for up to 1000 tets, errors are a tenth to a third larger on the Dragon and on a dog
+#: with handles at its tips, and the same elsewhere.
 TRAINED, CANDIDATES, MANY_CANDIDATES = 60, 20, 20_000
-#: The same for blends. Errors of Lion, Dog, Centaur, ten Lions, 11 and 20 poses are the same with
-#: 20 blends and with 200, which take four times as long; with half as many candidates the Lion's
-#: errors grow by a third. With more, builds of the Lion take as long on average, and some take more
+#: The same for blends. Errors on Lion, Dog, Centaur, ten Lions, 11 and 20 poses are the same with
+#: 20 blends and with 200, which take four times as long. With half as many candidates the Lion's
+#: errors grow by a third. With more, builds of the Lion take as long on average, and some need more
 #: samples (docs/notes/snapshot-engine.md).
 TRAINED_BLENDS, BLEND_CANDIDATES, MANY_BLEND_CANDIDATES = 40, 20, 10_000
 #: How often a blended cubature may get half as many tets again to make the mean shape a minimum.
-#: Once a fit takes no more tets than the one before, larger numbers would not help either.
+#: Once a fit uses no more tets than the one before, larger numbers would not help either.
 GROWTHS = 4
-#: Fewest blends for a cubature: one to train on, and one to judge by.
+#: Smallest number of blends for a cubature: one to train on, and one to measure errors.
 FEWEST_BLENDS = 2
 #: One blended state in this many is evaluated to find out how large energies are.
 PILOT_STEP = 8
 
 
 def default_tets(dimension: int, *, shell: bool = False) -> int:
-    """Default number of tets of a cubature: 8 d, beyond 1000 tets 6.5 d.
+    """Default number of tets of a cubature: 8 d, but at most the larger of 1000 and 6.5 d.
 
     For triangles and hinges of a shell it is 12 d, but at most 1500; see `has_hinges`.
     """
@@ -78,7 +79,7 @@ def default_tets(dimension: int, *, shell: bool = False) -> int:
 def default_blended_tets(dimension: int, *, stars: bool = False) -> int:
     """Default number of tets of a blended cubature: 15 d, or 8 d stars, but at most 1000.
 
-    Blends take more tets than posing, since no handles hold them. On Lion, Dog and Centaur (d = 30,
+    Blends need more tets than posing, since no handles hold them. On Lion, Dog and Centaur (d = 30,
     20 and 50) errors are the same as with twice as many tets; with 10 d the Dog's and the Lion's
     are larger by half.
     """
@@ -98,9 +99,8 @@ def train_cubature(
 ) -> tuple[Cubature, dict[str, Any]]:
     """Trains a cubature (An, Kim, James 2008) to have the forces and energies of all tets.
 
-    See `fit_tets`, `training_rows` and `nonnegative_fit` for the steps. Of a surface that is as
-    rigid as possible it has all stars, without training, where there are few: see
-    `takes_all_stars`.
+    See `fit_tets`, `training_rows` and `nonnegative_fit` for the steps. For an as-rigid-as-possible
+    surface with few stars, the cubature has all of them, without training: see `takes_all_stars`.
 
     Parameters
     ----------
@@ -109,12 +109,12 @@ def train_cubature(
     subspace : AffineSubspace
         The subspace, attached to the rest shape.
     coordinates : (k, d)
-        Projected snapshots, the states to train on. One in ten is held out to measure errors; those
-        at rest do not count.
+        Projected snapshots, the states to train on. One in ten is held out to measure errors.
+        States at rest do not count.
     handle_hessian : (d, d)
         The Hessian of the handles' reduced energy, which is exact.
     tets : int, optional
-        Most tets to choose. Default: `default_tets`.
+        Largest number of tets to choose. Default: `default_tets`.
     seed : int, default 0
         Seed of the random rows.
     threads : int, optional

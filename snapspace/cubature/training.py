@@ -1,4 +1,4 @@
-"""Training: states with the forces of candidate tets, of which a few are chosen."""
+"""Training: chooses a few candidate tets by their forces at some states."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class WeightedTets:
-    """Some tets (r,), ascending, with the volumes that they stand for.
+    """Some tets (r,), ascending, with the volumes that they represent.
 
     rows : number of equations that they were fitted to
     """
@@ -69,7 +69,7 @@ class Training(Generic[States]):
     def fitted(self, estimate: Cubature | BlendedSum, count: int, *, rows: int) -> WeightedTets:
         """Chooses at most `count` tets.
 
-        estimate : an energy whose Hessians tell how far an error of the forces moves a state
+        estimate : an energy whose Hessians show how far an error of the forces moves a state
         rows : about how many equations of forces there are, at most d for each state
         """
         states, with_forces = self._states, self._with_forces

@@ -15,7 +15,7 @@ from .state_forces import StateForces, power_of_two
 FloatArray = NDArray[np.float64]
 
 #: Weight of the energy of a state, relative to the root mean square of all its force rows together.
-#: On the Dragon the energy's error falls from 4 % to 0.4 %, and the solutions stay as they are.
+#: On the Dragon it reduces the energy's error from 4 % to 0.4 %, and the solutions stay the same.
 ENERGY_WEIGHT = 0.5
 
 
@@ -78,7 +78,7 @@ def training_rows(
     rng = np.random.default_rng(seed)
     along = compliances @ rng.standard_normal((count, d, directions))
     forces = np.einsum("sd,sdk->sk", found.forces, along)
-    # exact, since it is a power of two: in any unit of length the columns fit single precision
+    # exact, since the unit is a power of two: columns fit single precision in any unit of length
     size = power_of_two(np.abs(forces).max(initial=0.0))
     along, forces = along * (found.stress_unit / size), forces / size
     scale = ENERGY_WEIGHT * np.sqrt(np.mean(forces**2) * directions) / found.units

@@ -16,16 +16,16 @@ from .chosen_rows import chosen_rows
 
 FloatArray = NDArray[np.float64]
 
-#: Columns that `DisplacementRows.blocks` gives together. A constant, since the rounding of sums
-#: that are formed block by block depends on it.
+#: Columns per block of `DisplacementRows.blocks`. A constant, since the rounding of sums over
+#: blocks depends on it.
 BLOCK = 3 * 1024
 
 
 class DisplacementRows(Sequence[FloatArray]):
     """A matrix (k, 3n) of displacements whose rows are separate arrays, in memory or in files.
 
-    Samples may take more memory than there is. Operations on all of them work on blocks of
-    columns, so that only one block is in memory at a time.
+    Samples may exceed the memory. Operations on all of them work on blocks of columns, so that only
+    one block is in memory at a time.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ class DisplacementRows(Sequence[FloatArray]):
         The rows, not copied; they may be mapped from a file by a `Checkpoint`. A matrix (k, 3n) is
         accepted as well.
     size : int
-        3n, needed in case there are no rows.
+        3n, for the case that there are no rows.
 
     Raises
     ------
@@ -124,9 +124,9 @@ class DisplacementRows(Sequence[FloatArray]):
         return mass.multiply(self._rows, self._offset, list(others), threads=threads)
 
     def combined(self, weights: FloatArray, *, threads: int = 0) -> FloatArray:
-        """Weights (j, k) times these rows: (j, 3n). A result does not depend on other weights.
+        """Weights (j, k) times these rows: (j, 3n). A result row does not depend on other weights.
 
-        That holds if all rows with a weight are finite. Rows without one do not count.
+        This holds if all rows with a nonzero weight are finite. Rows without one do not count.
         threads : default all; the result is bitwise the same for any number
         """
         weights = as_arrays("DisplacementRows", "weights", weights, len(self))
@@ -154,7 +154,7 @@ class DisplacementRows(Sequence[FloatArray]):
         for index, row in enumerate(self._rows):
             if row.base is not owner or _address(row) != first + index * owner.strides[0]:
                 return None
-        # the columns too: a row may be a part of a longer one
+        # the columns as well: a row may be a part of a longer one
         begin, rest = divmod(first - _address(owner), owner.strides[0])
         if rest or owner.shape[1] != self.size or owner.dtype != np.float64:
             return None

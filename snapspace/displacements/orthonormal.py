@@ -19,10 +19,10 @@ FloatArray = NDArray[np.float64]
 def orthonormalise(directions: FloatArray, mass: csr_array) -> None:
     """Restores U^T M U = I for nearly orthonormal rows (d, 3n), the columns of U, and fixes signs.
 
-    Makes at most two Cholesky-QR passes; they are triangular, so bases stay nested. They are needed
-    because the Gram matrix squares the condition number: a direction with eigenvalue lambda_i is
-    orthonormal only to eps * lambda_1 / lambda_i, far from 1e-12 for the last of forty. The largest
-    entry of a direction is positive.
+    Makes at most two passes of Cholesky QR. Their factors are triangular, so bases stay nested.
+    They are needed because the Gram matrix squares the condition number: a direction with
+    eigenvalue lambda_i is orthonormal only to eps * lambda_1 / lambda_i, far from 1e-12 for the
+    last of forty. The entry of a direction that is largest in absolute value becomes positive.
 
     Raises
     ------

@@ -18,13 +18,13 @@ from .displacement_rows import DisplacementRows, shared_mass
 
 FloatArray = NDArray[np.float64]
 
-#: New rows whose products are formed in one call, which reads all earlier rows once. Between two
-#: calls Ctrl-C is answered.
+#: Number of new rows whose products are formed in one call, which reads all earlier rows once.
+#: Ctrl-C takes effect between two calls.
 TOGETHER = 32
 
 
 class SnapshotGram:
-    """Matrix (k, k) of inner products d_i^T M d_j of displacements, grown while they are solved.
+    """Matrix (k, k) of inner products d_i^T M d_j of displacements, which grows as they are solved.
 
     The method of snapshots (paper, sec. 5.2) finds the best subspace from it, and the errors of
     unseen samples follow as well. Memory: the matrix, and M times `TOGETHER` displacements while
@@ -47,9 +47,9 @@ class SnapshotGram:
 
     @classmethod
     def of(cls, problem: Problem, *, lumped: bool = False) -> SnapshotGram:
-        """For displacements from a problem's `base`; the products are of those from its `tau`.
+        """For displacements from a problem's `base`; products are of displacements from its `tau`.
 
-        ValueError for something else than a problem.
+        ValueError for something other than a problem.
         """
         require_problem(problem, "SnapshotGram.of")
         return cls(problem.mass(lumped=lumped), offset=problem.base - problem.tau)
@@ -79,8 +79,8 @@ class SnapshotGram:
         """Appends displacements (3n,): their products with each other and with all earlier ones.
 
         The result is bitwise the same however the rows are split into calls, and on any number of
-        threads (0 for all). Rows are not copied, and later calls read them again: rows mapped from
-        files keep the memory free.
+        threads (0 for all). Rows are not copied, and later calls read them again; rows that are
+        mapped from files need no memory.
 
         Raises
         ------
@@ -100,7 +100,7 @@ class SnapshotGram:
 
     @single_threaded_blas
     def held_out_error(self, training: ArrayLike, unseen: ArrayLike, dimension: int) -> FloatArray:
-        """Relative errors |x - P x|_M / |x|_M of the best subspace for samples not used for it.
+        """Relative errors |x - P x|_M / |x|_M of the best subspace for unseen samples.
 
         P is the M-projection onto the first directions of the PCA of the training rows.
 

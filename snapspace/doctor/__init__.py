@@ -1,4 +1,4 @@
-"""The doctor: what is wrong with a surface, and mending it."""
+"""The doctor finds and mends faults of surfaces."""
 
 from .check_surface import SurfaceReport, check_surface
 from .finding import Finding

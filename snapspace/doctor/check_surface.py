@@ -32,8 +32,8 @@ class SurfaceReport:
     vertices, faces : their numbers
     bounds : two corners of the bounding box
     diagonal : of the bounding box
-    area : of all faces, copies left out
-    volume : that is enclosed, negative if faces are inward; None if the surface is not closed
+    area : of all faces without duplicates
+    volume : enclosed volume, negative if faces are inward; None if the surface is not closed
     findings : faults first
     """
 
@@ -47,7 +47,7 @@ class SurfaceReport:
 
     @property
     def closed(self) -> bool:
-        """Whether the surface encloses a solid: no holes, and faces are oriented alike."""
+        """Whether the surface encloses a solid: no holes, and faces oriented consistently."""
         return self.volume is not None
 
     @property
@@ -73,9 +73,9 @@ class SurfaceReport:
 def check_surface(vertices: ArrayLike, faces: ArrayLike) -> SurfaceReport:
     """Examines a triangle surface before it is filled.
 
-    Looks for holes, edges of three faces, faces against their neighbours, inward faces, degenerate
-    and duplicate faces, faces that cross, several components, seams, unused vertices, slivers,
-    thin parts, and a place far from the origin.
+    Looks for holes, edges of more than two faces, inconsistent orientation, inward faces,
+    degenerate, duplicate and intersecting faces, several components, seams, unused vertices,
+    slivers, thin parts, and a position far from the origin.
 
     Parameters
     ----------
@@ -85,8 +85,8 @@ def check_surface(vertices: ArrayLike, faces: ArrayLike) -> SurfaceReport:
     Returns
     -------
     SurfaceReport
-        The same for the surface in any unit. Vertices with equal positions count as one if the
-        surface is closed only so.
+        It does not depend on the unit of length. Vertices with equal positions count as one if the
+        surface is closed only then.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Faces without repeated vertices and copies, on points that are merged if that is needed."""
+"""Faces without repeated vertices or duplicates, on points that are merged if needed."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Cleaned:
-    """Faces that edges can be counted on.
+    """Faces whose edges can be counted.
 
     faces : (g, 3), without degenerate and duplicate ones; the indices are those of the input
-    merged : number of points that became another one, because the surface is closed only so
+    merged : number of points that were merged into others, because the surface is closed only then
     degenerate : number of faces with a repeated vertex, which were left out
     duplicate : number of faces with the vertices of another one, which were left out
     """
@@ -62,9 +62,9 @@ def repeated_faces(faces: IndexArray) -> NDArray[np.bool_]:
 
 
 def _walls(faces: IndexArray) -> NDArray[np.bool_]:
-    """Which faces have as many copies that run the other way, and leave no hole if all go.
+    """Which faces have as many copies of opposite orientation, and leave no hole if dropped.
 
-    They are both sides of a wall between solids, or of a sheet: neither side says what is inside.
+    They are both sides of a wall between solids, or of a sheet; neither shows what is inside.
     """
     copy = _copies(faces)
     # +1 where the vertices ascend cyclically, -1 where they descend

@@ -23,7 +23,7 @@ def face_components(faces: IndexArray, vertex_count: int) -> Labels:
 
 
 def parts_apart(vertices: FloatArray, faces: IndexArray) -> tuple[Labels, FloatArray]:
-    """Groups the components whose bounding boxes touch: such groups are certainly apart.
+    """Groups components whose bounding boxes touch; different groups are certainly apart.
 
     Parameters
     ----------
@@ -55,14 +55,14 @@ def parts_apart(vertices: FloatArray, faces: IndexArray) -> tuple[Labels, FloatA
 
 
 def orientation(edges: Edges) -> tuple[NDArray[np.bool_], Labels, NDArray[np.bool_]]:
-    """Which faces to turn round so that neighbours agree.
+    """Which faces to flip so that neighbours agree.
 
     Neighbours are two faces at an edge with no other face.
 
     Returns
     -------
     turn : ndarray of bool, (f,)
-        At most half of the faces of each patch.
+        The faces to flip: at most half of each patch.
     patch : ndarray of int, (f,)
         The patch of each face: faces connected by such edges.
     twisted : ndarray of bool, (f,)
@@ -76,7 +76,7 @@ def orientation(edges: Edges) -> tuple[NDArray[np.bool_], Labels, NDArray[np.boo
     left, right = slots[:, 0] // 3, slots[:, 1] // 3
     along = edges.along.ravel()
     agree = along[slots[:, 0]] != along[slots[:, 1]]
-    # two nodes per face, as it is and turned round; an edge connects those that agree
+    # two nodes per face, as it is and flipped; an edge connects those that agree
     rows = np.concatenate([left, left + count])
     columns = np.concatenate(
         [np.where(agree, right, right + count), np.where(agree, right + count, right)]

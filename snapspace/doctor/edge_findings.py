@@ -1,4 +1,4 @@
-"""Findings about how faces meet: holes, orientation, edges of three faces, parts, copies."""
+"""Findings about how faces meet: holes, orientation, non-manifold edges, parts, duplicates."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ DUST = 1e-3
 
 
 def edge_findings(vertices: FloatArray, faces: IndexArray, edges: Edges) -> list[Finding]:
-    """All findings about edges; none for a closed surface in one part, oriented alike."""
+    """All findings about edges; none for a closed, consistently oriented surface in one part."""
     turn, _, twisted = orientation(edges)
     fans = int((edges.uses > 2).sum())
     parts = int(face_components(faces, len(vertices)).max()) + 1
@@ -49,7 +49,7 @@ def edge_findings(vertices: FloatArray, faces: IndexArray, edges: Edges) -> list
 
 
 def copy_findings(clean: Cleaned, unused: int) -> list[Finding]:
-    """Points and faces that say nothing new."""
+    """Findings about redundant points and faces."""
     found: list[Finding] = []
     if clean.merged:
         repeat = counted(clean.merged, "vertex repeats", "vertices repeat")

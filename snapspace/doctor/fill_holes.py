@@ -14,16 +14,16 @@ IndexArray = NDArray[np.int32]
 
 # Holes with more edges are not closed: the work grows with the cube.
 _LONGEST = 400
-# Largest distance from a plane, as a share of the hole's diameter, and diameter of a hole of any
-# shape, as a share of the surface's diagonal.
+# Largest distance from a plane for a flat hole, as a share of its diameter, and largest diameter of
+# a small hole, as a share of the surface's diagonal.
 _FLAT, _SMALL = 0.15, 0.05
 
 
 def closable_holes(vertices: FloatArray, faces: IndexArray) -> list[tuple[Hole, IndexArray | None]]:
     """The holes of a surface, longest first, each with the triangles that close it.
 
-    None where it is no simple loop, or neither flat nor small, or a triangle would cover a face
-    that is there: the "hole" around a single triangle, or at the corner of a sheet.
+    None for a hole that is not a simple loop, or neither flat nor small, or where a triangle would
+    cover an existing face: the "hole" around a single triangle, or at the corner of a sheet.
     """
     diagonal = float(np.linalg.norm(np.ptp(vertices[faces].reshape(-1, 3), axis=0)))
     holes = holes_of(vertices, edges_of(faces))
@@ -51,7 +51,7 @@ def _fillable(hole: Hole, diagonal: float) -> bool:
 
 
 def hole_triangles(vertices: FloatArray, loop: NDArray[np.intp]) -> IndexArray:
-    """The triangulation of a loop with the least area, oriented like the faces around it.
+    """The triangulation of a loop with the smallest area, oriented like the faces around it.
 
     Barequet and Sharir, "Filling Gaps in the Boundary of a Polyhedron", 1995: dynamic programming
     over intervals of the loop, in n^3 / 6 steps.

@@ -1,20 +1,20 @@
-"""Finding: something about a surface that its user should know."""
+"""Finding: a property of a surface that its user should know."""
 
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-#: A cure for what may be open on purpose.
+#: The cure for a surface that may be open on purpose.
 AS_SHELL = "leave a sheet such as cloth open: it is a shell"
 
 
 @dataclass(frozen=True, kw_only=True)
 class Finding:
-    """One kind of fault or peculiarity.
+    """One kind of fault, or a harmless peculiarity.
 
     name : its name, such as "holes"
-    fault : whether it needs mending; otherwise it is only good to know
+    fault : whether it needs mending; otherwise it is only information
     count : how many there are
     text : what was found
     meaning : what it means for filling, posing and writing

@@ -15,14 +15,14 @@ from .cleaned import cleaned
 
 FloatArray = NDArray[np.float64]
 
-#: A hole of a larger diameter, as a share of the diagonal, may be wanted: as that of cloth, a leaf
-#: or a mask, which are shells.
+#: A hole of a larger diameter, as a share of the diagonal, may be intended, as in cloth, a leaf or
+#: a mask, which are shells.
 WIDEST_FAULT = 0.05
 
 
 @dataclass(frozen=True, eq=False)
 class Hole:
-    """Boundary edges that hang together.
+    """Boundary edges that are connected.
 
     edges : number of edges
     length : their length
@@ -30,7 +30,8 @@ class Hole:
     flatness : largest distance from the best plane, as a share of the diameter
     center : (3,), mean of the vertices
     vertices : in ascending order
-    loop : vertices in the order in which faces run along the edges; None if they are no simple loop
+    loop : vertices in the order in which faces run along the edges; None unless they are a simple
+    loop
     """
 
     edges: int
@@ -95,7 +96,7 @@ def _loop(directed: NDArray[np.intp], used: NDArray[np.intp]) -> NDArray[np.intp
 
 
 def is_sheet(vertices: FloatArray, faces: IndexArray) -> bool:
-    """Whether a surface, once it is cleaned, may be open on purpose, as cloth is."""
+    """Whether a cleaned surface may be open on purpose, as cloth is."""
     clean = cleaned(vertices, faces).faces
     return len(clean) > 0 and has_wide_hole(vertices, clean)
 

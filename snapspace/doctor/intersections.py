@@ -19,7 +19,7 @@ _EDGES = ((0, 1), (1, 2), (2, 0))
 
 
 def crossing_faces(vertices: FloatArray, faces: IndexArray) -> Pairs:
-    """Pairs of faces that cross: an edge of one passes through the inside of the other.
+    """Pairs of faces that cross: an edge of one passes through the interior of the other.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def _crossing(
 def _passes(
     p: FloatArray, q: FloatArray, triangle: FloatArray, scale: FloatArray
 ) -> NDArray[np.bool_]:
-    """Whether the segments p q (k, 3) pass through the insides of triangles (k, 3, 3).
+    """Whether the segments p q (k, 3) pass through the interiors of triangles (k, 3, 3).
 
     `scale` (k,) is their size along an axis.
     """

@@ -1,4 +1,4 @@
-"""mend_surface: mends what can be mended without a guess about the shape, and closes holes."""
+"""mend_surface: mends what can be mended without guessing the shape, and closes holes."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class MendedSurface:
 
     vertices : (n, 3), those of the input that faces use, in their order
     faces : (f, 3)
-    invented : number of faces that close holes; the last ones
+    invented : number of faces that close holes; these are the last ones
     invented_area : their area
     notes : what was done, one sentence per kind of fault; empty if nothing was
     """
@@ -41,14 +41,13 @@ class MendedSurface:
 def mend_surface(
     vertices: ArrayLike, faces: ArrayLike, *, close_holes: bool = True
 ) -> MendedSurface:
-    """Makes a surface closed and oriented, as far as that is safe.
+    """Makes a surface closed and consistently oriented, as far as that is safe.
 
     In this order, it merges vertices with equal positions if the surface is not closed without
     that; drops faces that name a vertex twice or repeat another face, and both sides of walls
-    between solids; drops vertices without faces; turns faces round until neighbours agree; closes
-    holes that are simple loops and flat (within 15 % of their diameter) or small (5 % of the
-    diagonal), with the triangles of least area between their vertices; and turns all faces
-    outward.
+    between solids; drops vertices without faces; flips faces until neighbours agree; closes holes
+    that are simple loops and flat (within 15 % of their diameter) or small (5 % of the diagonal),
+    with the triangulation of smallest area between their vertices; and turns all faces outward.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Findings about the shape of a surface: slivers, thinness, place, size, crossings."""
+"""Findings about the shape of a surface: slivers, thinness, position, size, intersections."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ IndexArray = NDArray[np.int32]
 
 # Height over longest side below which a face is a sliver.
 _SLIVER = 0.01
-# Mean thickness below this share of the diagonal is thin: the default tets are as long.
+# A mean thickness below this share of the diagonal is thin: default tets have about that size.
 _THIN = 0.02
-# Diagonals from the origin above which single precision loses a thousandth of a percent.
+# Distance from the origin, in diagonals, at which single precision rounds by 0.001 %.
 _FAR = 100.0
 
 
 def face_areas(vertices: FloatArray, faces: IndexArray) -> tuple[FloatArray, FloatArray]:
-    """Areas of faces, and their heights over the longest side as shares of that, (f,) each."""
+    """Areas of faces, and their heights over the longest side divided by that side, (f,) each."""
     a, b, c = (vertices[faces[:, corner]] for corner in range(3))
     area = triangle_areas(vertices, faces)
     longest = np.maximum.reduce([((p - q) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))])
@@ -49,7 +49,7 @@ def sliver_finding(shape: FloatArray) -> list[Finding]:
 
 
 def thin_finding(volume: float, area: float, diagonal: float) -> list[Finding]:
-    """A closed surface whose inside is thin, or without any."""
+    """A closed surface whose interior is thin or empty."""
     thickness = 2.0 * abs(volume) / (area * diagonal) if area > 0 else 0.0
     if thickness >= _THIN:
         return []

@@ -1,4 +1,4 @@
-"""The triangles of a surface that is as rigid as possible."""
+"""The triangles of an as-rigid-as-possible surface."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .. import _core
 from ..material import ARAP, Material
 from ..mesh import ShellMesh
 
-#: The density in the core, and how many numbers its rows have; see core/material/shell_arap.h.
+#: Name of the density in the core, and length of its rows; see core/material/shell_arap.h.
 KIND, NUMBERS = "shell-arap", 12
 
 
@@ -19,14 +19,14 @@ def arap_triangles(
     """Rows (k, f, 12) of the density in poses (k, n, 3): moduli times thickness, tangent frames."""
     moduli = np.zeros((len(mesh.triangles), 3))
     moduli[:, 0] = material.mu * mesh.thickness
-    # the frames are those of all shells, and the rows of others are longer
+    # all shells have the same frames, but rows of others are longer
     triangles = np.ascontiguousarray(mesh.elements[: len(mesh.triangles)])
     rows = _core.shell_moduli(np.ascontiguousarray(poses), triangles, "shell-stvk", moduli)
     return np.ascontiguousarray(np.asarray(rows)[:, :, :NUMBERS])
 
 
 def star_hats(mesh: ShellMesh, poses: NDArray[np.float64], material: ARAP) -> _core.StarHats | None:
-    """The stars of a surface with poses (k, n, 3): the same in all; None for one ring each.
+    """The stars of a surface, the same in all poses (k, n, 3); None for one-rings.
 
     The radius is relative to the mean diagonal of the poses.
     """

@@ -33,15 +33,15 @@ class ElasticEnergy:
         Its moduli may be constant, or given per tet or triangle. A shell is `StableNeoHookean` or
         `StVK`, in plane stress, or `ARAP`.
     bending : "angle" or "tangent", default "angle"
-        What measures how far a hinge of a shell is bent: its angle theta, with a hundredth of
-        2 tan(theta / 2) - theta, or 2 tan(theta / 2). Both grow without bound where a hinge folds
-        onto itself. The strain is the difference from rest, over the slope at rest.
+        Measure of the bending of a shell's hinge with angle theta: theta plus a hundredth of 2
+        tan(theta / 2) - theta, or 2 tan(theta / 2). Both grow without bound where a hinge folds
+        onto itself. The strain is the difference from rest, divided by the slope at rest.
 
     Raises
     ------
     ValueError
-        If the mesh is none, or the material is not one of `MATERIALS`, has moduli for another
-        number of tets or triangles, or has no form for shells; for a `bending` of `ARAP`.
+        If `mesh` is not a mesh, or the material is not one of `MATERIALS`, has moduli for another
+        number of tets or triangles, or has no form for shells; for a `bending` with `ARAP`.
 
     Notes
     -----
@@ -80,7 +80,7 @@ class ElasticEnergy:
 
     @cached_property
     def stars(self) -> VertexStars | None:
-        """The elements of a surface that is as rigid as possible; None for other bodies."""
+        """The elements of an as-rigid-as-possible surface; None for other bodies."""
         return VertexStars(self.core) if self._has_stars else None
 
     @property
@@ -111,7 +111,7 @@ class ElasticEnergy:
 
         The paper's Newton matrix (sec. 4.2), after Irving, Teran, Fedkiw 2004. Equal to `hessian`
         where no singular value is below the threshold; for St.Venant-Kirchhoff positive
-        semi-definite at threshold 1. For solids; that of a shell is the `projected_hessian`.
+        semi-definite at threshold 1. For solids; shells have only `projected_hessian`.
         """
         if not (is_number(threshold) and 0 < threshold <= 1):
             raise ValueError(

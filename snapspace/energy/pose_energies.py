@@ -20,7 +20,7 @@ FloatArray = NDArray[np.float64]
 
 
 class PoseEnergies:
-    """The energies E_k of a blend; each takes displacements from its pose.
+    """The energies E_k of a blend, each a function of displacements from its pose.
 
     Parameters
     ----------
@@ -44,8 +44,8 @@ class PoseEnergies:
     def in_frames(self, shapes: FloatArray) -> PoseEnergies:
         """The same energies with the poses (k, n, 3) in other frames.
 
-        They have the same stars: lengths that are computed anew round differently, and centers may
-        hang on that.
+        They keep the same stars: recomputed lengths would round differently, which may change the
+        centers of stars.
         """
         moved = PoseEnergies(self._mesh, shapes, self._material)
         moved.hats = self.hats
@@ -53,7 +53,7 @@ class PoseEnergies:
 
     @cached_property
     def hats(self) -> _core.StarHats | None:
-        """Of the stars of all poses; None for one ring each, and for other bodies."""
+        """The hats of the stars, the same in all poses; None for one-rings and other bodies."""
         if not (isinstance(self._mesh, ShellMesh) and isinstance(self._material, ARAP)):
             return None
         return star_hats(self._mesh, self._shapes, self._material)
@@ -79,13 +79,13 @@ class PoseEnergies:
 
     @cached_property
     def stars(self) -> list[VertexStars] | None:
-        """The stars of each pose, of a surface that is as rigid as possible; None for others."""
+        """The stars of each pose of an as-rigid-as-possible surface; None for others."""
         if not is_of_stars(self._mesh, self._material):
             return None
         return [VertexStars(self.energy(k)) for k in range(len(self))]
 
     def energy(self, pose: int) -> _core.ElasticEnergy:
-        """E_k, compiled; it takes displacements (3n,) from the pose."""
+        """E_k, compiled, a function of displacements (3n,) from the pose."""
         if not (is_whole(pose) and 0 <= pose < len(self)):
             raise ValueError(
                 f"InterpolationProblem: pose is {shown(pose)}, but must be between 0 and "

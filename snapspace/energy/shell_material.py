@@ -17,7 +17,7 @@ from .arap_triangles import KIND, arap_triangles, star_hats
 FloatArray = NDArray[np.float64]
 Bending = Literal["angle", "tangent"]
 
-#: Measures of bending, with the ends of their names in the core.
+#: Measures of bending, with the suffixes of their names in the core.
 BENDINGS: dict[Bending, str] = {"angle": "", "tangent": "-tangent"}
 #: Materials whose membranes the core has.
 MEMBRANES: tuple[type[Material], ...] = (StableNeoHookean, StVK)
@@ -27,12 +27,12 @@ SHELLS: tuple[type[Material], ...] = (*MEMBRANES, ARAP)
 
 @dataclass(frozen=True, eq=False)
 class ShellMaterial:
-    """What the elements of a shell are made of; for tets it is the `Material` itself.
+    """The material of a shell's elements; for tets it is the `Material` itself.
 
     kind : name of the density in the core
     moduli : (e, 15), mu and lam of the plane and the bending stiffness, each times its power of the
         thickness, and numbers of the rest shape; see core/material/shell.h
-    hats : of the stars of `ARAP`; None for one ring around every vertex
+    hats : hats of the stars of `ARAP`; None for the one-ring around every vertex
     """
 
     kind: str
@@ -73,8 +73,8 @@ def element_material(
     Raises
     ------
     ValueError
-        For a shell of a material without a membrane, or a measure of bending that is unknown, or
-        not the default and for `ARAP`.
+        For a shell of a material without a membrane, for an unknown measure of bending, or for one
+        other than the default with `ARAP`.
     """
     if bending not in BENDINGS:
         raise ValueError(f"{who}: unknown bending '{bending}'; known are {', '.join(BENDINGS)}")
@@ -96,9 +96,9 @@ def shell_materials(
 ) -> list[ShellMaterial]:
     """The materials of a shell's elements with each of several poses (k, n, 3) as the rest shape.
 
-    Those of `ARAP` are the triangles alone, with the `hats` of the stars. Moduli are those in the
-    mesh itself. Bending vanishes where a triangle collapses, relative to the mean areas of all
-    poses, so that blends of energies collapse (core/energy/shell_poses.h).
+    With `ARAP` the elements are the triangles alone, with the `hats` of the stars. Moduli are those
+    in the mesh itself. Bending vanishes where a triangle collapses, relative to the mean areas of
+    all poses, so that blends of energies collapse (core/energy/shell_poses.h).
 
     Raises
     ------
@@ -123,7 +123,7 @@ def shell_materials(
 
 
 def is_of_stars(mesh: Body, material: Material) -> bool:
-    """Whether the elements are stars: of a surface that is as rigid as possible."""
+    """Whether the elements are stars, those of an as-rigid-as-possible surface."""
     return isinstance(mesh, ShellMesh) and isinstance(material, ARAP)
 
 
@@ -140,8 +140,8 @@ def _check_membrane(material: Material, who: str) -> None:
 def rigidities(mesh: ShellMesh, material: Material) -> FloatArray:
     """Bending stiffness D = (2 mu + lam') thickness^3 / 12 of a plate, for each triangle, (f,).
 
-    Of `ARAP` it is that of equilateral triangles, (3/4)^(1/2) mu * thickness * area: as rigid as
-    possible, a surface resists bending by the width of its triangles.
+    For `ARAP` it is that of equilateral triangles, (3/4)^(1/2) mu * thickness * area: an
+    as-rigid-as-possible surface resists bending by the width of its triangles.
     """
     if isinstance(material, ARAP):
         return np.asarray(np.sqrt(0.75) * material.mu * mesh.thickness * mesh.areas)

@@ -1,4 +1,4 @@
-"""VertexStars: the elements of a surface that is as rigid as possible."""
+"""VertexStars: the elements of an as-rigid-as-possible surface."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class StarTriangles(NamedTuple):
 
 
 class StarParts(NamedTuple):
-    """Pairs of a star and a vertex whose force its stress is part of, vertex by vertex.
+    """Pairs of a star and a vertex whose force depends on the star's stress, vertex by vertex.
 
     stars : (p,) int32
     places : (p,) int32, indices of the vertices among those asked for
@@ -43,11 +43,11 @@ class StarParts(NamedTuple):
 
 
 class VertexStars:
-    """The elements of a surface that is as rigid as possible, for cubatures.
+    """The elements of an as-rigid-as-possible surface, for cubatures.
 
     Its energy is a quadratic form of the displacements plus the sum over stars of measure *
-    density, a function of nine numbers per star; neither part is negative. The form says how much
-    the triangles of a star differ from the star's best affine map. See core/energy/vertex_stars.h.
+    density, a function of nine numbers per star; neither part is negative. The form measures how
+    much the triangles of a star deviate from its best affine map. See core/energy/vertex_stars.h.
 
     measures : (s,), the area of each: that of its triangles, shared between stars
     material : ShellMaterial of the stars
