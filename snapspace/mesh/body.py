@@ -1,4 +1,4 @@
-"""Body: what solids and shells have in common."""
+"""Body: the interface of solids and shells."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Body(Protocol):
 
     @property
     def measures(self) -> FloatArray:
-        """What an element's density is multiplied by, (e,): of a tet its volume."""
+        """Factors of the elements' densities, (e,): for tets their volumes."""
         ...
 
     @property
@@ -72,5 +72,5 @@ class Body(Protocol):
 
     @property
     def fingerprint(self) -> str:
-        """Hash of everything that a body is, 64 hex digits."""
+        """Hash of everything that defines the body, 64 hex digits."""
         ...

@@ -1,4 +1,4 @@
-"""Arrays of bounded size for meshio, whose readers allocate any size that a file asks for.
+"""Arrays of bounded size for meshio, whose readers allocate any size that a file names.
 
 A Gmsh file of a few bytes with the node number 2^31 would take 16 GB, and a VTK file with huge
 dimensions would exhaust any memory.
@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-#: Most entries of an array. A mesh with more vertices is far too large to be solved.
+#: Largest number of entries of an array. A mesh with more vertices is far too large to be solved.
 MOST_ENTRIES = 1 << 26
 
 
@@ -36,7 +36,7 @@ class BoundedArrays:
 
 
 def bound_arrays(*modules: ModuleType) -> None:
-    """Make modules of meshio use these functions in place of NumPy's."""
+    """Makes modules of meshio use these functions instead of NumPy's."""
     for module in modules:
         module.np = BoundedArrays()  # type: ignore[attr-defined]
 

@@ -33,7 +33,7 @@ class BoxTree:
     def __init__(self, low: FloatArray, high: FloatArray) -> None:
         self._order = np.argsort(morton_codes((low + high) / 2.0), kind="stable")
         depth = max(0, len(low) - 1).bit_length()
-        # empty boxes fill up the last level: they are infinitely far from everything
+        # empty boxes, infinitely far from everything, fill the last level
         lows, highs = np.full((2**depth, 3), np.inf), np.full((2**depth, 3), -np.inf)
         lows[: len(low)], highs[: len(low)] = low[self._order], high[self._order]
         self._levels = [(lows, highs)]
@@ -71,7 +71,7 @@ class BoxTree:
         return point, self._order[node]
 
     def overlapping(self) -> Iterator[Pairs]:
-        """All pairs of different boxes that overlap, touching included, each once, in blocks."""
+        """All pairs of different boxes that overlap or touch, each pair once, in blocks."""
         root = np.zeros(1, np.intp)
         stack = [(0, root, root)]
         while stack:

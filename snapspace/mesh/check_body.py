@@ -1,4 +1,4 @@
-"""check_body: refuses what is no mesh of a body."""
+"""check_body: refuses anything that is not a mesh of a body."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .tet_mesh import TetMesh
 
 
 def check_body(mesh: Body, who: str) -> None:
-    """ValueError of `who` for something else than a mesh, such as a tuple of arrays."""
+    """Raises a ValueError of `who` for anything but a mesh, such as a tuple of arrays."""
     if not isinstance(mesh, (TetMesh, ShellMesh)):
         cure = "give a TetMesh or ShellMesh, such as TetMesh(vertices, tets)"
         raise wrong_type(who, "mesh", mesh, cure)

@@ -10,7 +10,7 @@ from .edges import edges_of
 
 
 def check_closed(faces: IndexArray, *, who: str) -> None:
-    """Raise ValueError unless the faces form a closed surface and are oriented alike.
+    """Raise ValueError unless the faces form a closed, consistently oriented surface.
 
     Parameters
     ----------

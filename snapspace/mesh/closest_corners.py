@@ -15,7 +15,7 @@ def closest_corners(
 ) -> NDArray[np.intp]:
     """The corner of each point's closest triangle that is nearest to the closest point on it.
 
-    Unlike the closest vertex, it never belongs to another limb where triangles are large.
+    Unlike the closest vertex, this corner never belongs to another limb where triangles are large.
 
     Parameters
     ----------

@@ -15,9 +15,9 @@ class Edges:
     """Undirected edges (e, 2), and those of the faces.
 
     uses : (e,), number of faces at each edge
-    balance : (e,), faces that run along the edge less those that run against it
+    balance : (e,), number of faces that run along the edge minus those that run against it
     of_face : (f, 3), edge from corner k to corner k + 1
-    along : (f, 3), whether the face runs along it, from its lower to its higher vertex
+    along : (f, 3), whether the face runs along the edge, from its lower to its higher vertex
     """
 
     ends: IndexArray

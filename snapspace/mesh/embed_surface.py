@@ -16,8 +16,8 @@ from .tet_mesh import TetMesh
 from .tet_search import closest_boundary_faces, containing_tets, least_extrapolated
 from .validation import check_indices, check_points
 
-#: `farthest` for a surface that the mesh fills: the tets carry all of it along, even a small part
-#: that filling lost. A surface in another unit is still refused.
+#: `farthest` for a surface that the mesh fills: even small parts that filling lost follow the tets.
+#: A surface in another unit is still refused.
 WHOLE_DIAGONAL = 1.0
 _SAME = 1e-9  # points closer than this share of the diagonal coincide
 
@@ -31,7 +31,7 @@ def embed_file(file: SurfaceFile, mesh: TetMesh, *, farthest: float = 0.02) -> E
 def embed_surface(
     vertices: ArrayLike, faces: ArrayLike, mesh: TetMesh, *, farthest: float = 0.02
 ) -> EmbeddedSurface:
-    """Express a surface by the tets it lies in, so that it follows them.
+    """Embed a surface in the tets around it, so that it follows them.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def embed_surface(
         The surface at rest, in the unit and frame of the mesh.
     faces : array_like of int, (f, 3)
     mesh : TetMesh
-        Fills the surface. A tetrahedraliser may keep the surface only within an envelope.
+        Its tets fill the surface. A tetrahedraliser may keep the surface only within an envelope.
     farthest : float, default 0.02
         How far outside the tets a vertex may lie, as a share of the mesh's diagonal. Quick tets
         cut off sharp edges within an edge length.
@@ -47,12 +47,13 @@ def embed_surface(
     Returns
     -------
     EmbeddedSurface
-        With the surface's own vertices, in their order, and its faces; `vertices(mesh.vertices)`
+        The surface with its own vertices, in their order, and its faces; `vertices(mesh.vertices)`
         are the given vertices up to rounding. If the first s vertices of the mesh are those of the
-        surface, it is exact. Otherwise a vertex that coincides with a tet vertex (1e-9 of the
-        diagonal) follows only that, and a vertex inside the mesh has the barycentric coordinates of
-        its tet. A vertex outside has the extrapolated coordinates of a tet at the closest boundary
-        face: the one with the smallest weights among all tets that share a vertex with that face.
+        surface, the embedding is exact. Otherwise a vertex that coincides with a tet vertex (1e-9
+        of the diagonal) follows only that tet vertex, and a vertex inside the mesh has the
+        barycentric coordinates of its tet. A vertex outside has the extrapolated coordinates of a
+        tet near the closest boundary face: the tet with the smallest weights among all that share a
+        vertex with that face.
 
     Raises
     ------
@@ -84,7 +85,8 @@ def embed_surface(
     tets, weights = containing_tets(mesh, points)
     _extrapolate_outside(mesh, points, tets, weights, farthest)
     corners = mesh.tets[tets]
-    # the nearest tet vertex may belong to a tet that was not chosen: rounding decides at a vertex
+    # the nearest tet vertex may belong to a tet that was not chosen, since rounding decides at a
+    # vertex
     distance, nearest = cKDTree(mesh.vertices).query(points, distance_upper_bound=same)
     coincides = np.flatnonzero(np.asarray(distance) <= same)
     corners[coincides] = np.asarray(nearest)[coincides, None]

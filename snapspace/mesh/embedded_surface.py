@@ -1,4 +1,4 @@
-"""EmbeddedSurface: a triangle surface that the tets of a mesh carry along."""
+"""EmbeddedSurface: a triangle surface that follows the tets of a mesh."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class EmbeddedSurface:
     weights : array_like, (s, 4)
         Their weights. Rows sum to one; a vertex outside its tet has negative weights.
     source : SurfaceFile, optional
-        The user's file with these s vertices. Models keep it, and shapes are written into it.
+        The user's file with these s vertices. Models store it, and shapes are written into it.
 
     Raises
     ------
@@ -44,7 +44,7 @@ class EmbeddedSurface:
 
     Notes
     -----
-    Because the rows sum to one, an affine motion of the tets is the same motion of the surface.
+    Because the rows sum to one, an affine motion of the tets moves the surface in the same way.
     Arrays are copied and read-only. `embed_surface` and `boundary_surface` make these surfaces.
     """
 
@@ -95,14 +95,14 @@ class EmbeddedSurface:
 
     @cached_property
     def nearest(self) -> IndexArray:
-        """The tet vertex that each surface vertex follows most, by its largest weight, (s,)."""
+        """The tet vertex with the largest weight for each surface vertex, (s,)."""
         largest = self.weights.argmax(axis=1)
         nearest: IndexArray = self.corners[np.arange(len(largest)), largest]
         nearest.setflags(write=False)
         return nearest
 
     def following(self, vertices: ArrayLike) -> NDArray[np.intp]:
-        """The surface vertices that follow one of these tet vertices most, ascending."""
+        """The surface vertices whose `nearest` is one of these tet vertices, ascending."""
         return np.flatnonzero(np.isin(self.nearest, vertices))
 
     def is_boundary(self, mesh: Body) -> bool:
@@ -203,13 +203,14 @@ def boundary_surface(mesh: Body) -> EmbeddedSurface:
     Returns
     -------
     EmbeddedSurface
-        Exact. Its vertices are `mesh.vertices[mesh.surface_vertices]`, in this order, its faces
-        those of `mesh.surface`: for tets closed and outward, for a shell its triangles.
+        An exact embedding. Its vertices are `mesh.vertices[mesh.surface_vertices]`, in this order,
+        and its faces those of `mesh.surface`. For tets it is closed and outward; for a shell it has
+        the triangles.
 
     Raises
     ------
     ValueError
-        For something else than a mesh.
+        For something other than a mesh.
     """
     check_body(mesh, "boundary_surface")
     _, faces = compact_surface(mesh.vertices, mesh.surface)

@@ -19,7 +19,7 @@ def equal_faces(faces: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[n
     Returns
     -------
     order : ndarray of int, (f,)
-        Of equal faces in any order.
+        Equal faces are in any order.
     same : ndarray of bool, (f - 1,)
         Whether `faces[order[k + 1]]` has the vertices of `faces[order[k]]`; empty without faces.
     """

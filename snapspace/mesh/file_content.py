@@ -35,7 +35,7 @@ class FileContent:
         Cell type ("tetra", "triangle", "tetra10", ...; meshio's names) -> 0-based vertex indices,
         one cell per row, in the order of the file.
     polygons : Polygons, optional
-        Of a surface, those that the triangles were made from.
+        For a surface, the polygons that the triangles were made from.
     """
 
     vertices: NDArray[np.float64]

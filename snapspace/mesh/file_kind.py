@@ -11,7 +11,7 @@ _OTHERS = {".json": "a problem or timeline", ".html": "a page", ".snapspace": "a
 
 
 def file_kind(path: Path) -> str:
-    """For example "a surface"; of an unknown extension "a file of another kind"."""
+    """For example "a surface"; "a file of another kind" for an unknown extension."""
     suffix = path.suffix.lower()
     if suffix in TET_SUFFIXES:
         return "a tet mesh"

@@ -13,7 +13,7 @@ def hinges_of(triangles: IndexArray) -> IndexArray:
     Parameters
     ----------
     triangles : ndarray of int, (f, 3)
-        At most two at an edge, which run along it in opposite directions.
+        At most two meet at an edge, and run along it in opposite directions.
 
     Returns
     -------
@@ -37,9 +37,9 @@ def hinge_measures(vertices: FloatArray, hinges: IndexArray) -> FloatArray:
     """A third of the area of both triangles over the mean square of the hinge's angle, (h,).
 
     The mean is over cylinders of radius one that touch the hinge in all directions. Half of the
-    measure times the bending stiffness times the squared angle is the energy of a hinge: on average
-    over directions that of a plate, for triangles of any shape. With equilateral triangles it is
-    |edge|^2 / (sum of both areas), as in Grinspun, Hirani, Desbrun, Schroeder 2003.
+    measure times the bending stiffness times the squared angle is the energy of a hinge: averaged
+    over directions, it is that of a plate, for triangles of any shape. With equilateral triangles
+    it is |edge|^2 / (sum of both areas), as in Grinspun, Hirani, Desbrun, Schroeder 2003.
     """
     start = vertices[hinges[:, 0]]
     edge, first, second = (vertices[hinges[:, k]] - start for k in (1, 2, 3))

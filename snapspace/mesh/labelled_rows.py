@@ -19,8 +19,8 @@ def parse_labelled_rows(lines: list[str], *, columns: int, what: str) -> NDArray
     lines : list of str
         Without comments and blank lines.
     columns : int
-        How many numbers of each row are wanted, including the label; further ones (attributes,
-        markers) are left out.
+        Number of columns to read, including the label; further ones (attributes, markers) are left
+        out.
     what : str
         What the rows are, for messages.
 

@@ -1,4 +1,4 @@
-"""The least of each group, without sorting."""
+"""The smallest of each group, without sorting."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Integers = NDArray[np.intp]
 
 
 def least_of_each(group: Integers, cost: FloatArray, index: Integers) -> Integers:
-    """Position of the least cost in each group; ties go to the least index.
+    """Position of the smallest cost in each group; ties go to the smallest index.
 
     Parameters
     ----------

@@ -39,7 +39,7 @@ def mass_matrix(mesh: Body, *, lumped: bool = False) -> csr_array:
     Raises
     ------
     ValueError
-        For something else than a mesh.
+        For something other than a mesh.
     """
     check_body(mesh, "mass_matrix")
     return mass_of_cells(mesh.cells, mesh.volumes, lumped=lumped)
@@ -60,7 +60,7 @@ def mass_of_cells(cells: IndexArray, volumes: FloatArray, *, lumped: bool = Fals
 
 
 def check_mass(mass: csr_array, size: int | None = None, *, who: str) -> None:
-    """ValueError of `who` unless it is a sparse matrix (n, n), for shape vectors of a size 3n."""
+    """ValueError of `who` unless `mass` is a sparse matrix (n, n), for shape vectors of size 3n."""
     if not issparse(mass):
         raise wrong_type(who, "mass", mass, "give mass_matrix(mesh) or problem.mass()")
     n = mass.shape[0] if size is None else size // 3
@@ -99,7 +99,7 @@ def apply_mass(mass: csr_array, shapes: ArrayLike) -> FloatArray:
 def mass_inner(mass: csr_array, a: FloatArray, b: FloatArray) -> float:
     """Inner product a^T (M kron I3) b of two shape vectors, both (3n,).
 
-    Raises ValueError for blocks of shapes, which `mass_gram` takes.
+    Raises ValueError for blocks of shapes; use `mass_gram` for these.
     """
     _check_vector(a, who="mass_inner", block="mass_gram")
     _check_vector(b, who="mass_inner", block="mass_gram")
@@ -109,8 +109,8 @@ def mass_inner(mass: csr_array, a: FloatArray, b: FloatArray) -> float:
 def mass_gram(mass: csr_array, a: ArrayLike, b: ArrayLike) -> FloatArray:
     """Inner products A (M kron I3) B^T of all rows of (k, 3n) and (l, 3n): (k, l).
 
-    For a basis U (3n, d) pass U.T. Raises ValueError for other shapes, also for two vectors, which
-    `mass_inner` takes.
+    For a basis U (3n, d) pass U.T. Raises ValueError for other shapes, and for two vectors; use
+    `mass_inner` for these.
     """
     size = 3 * mass.shape[0]
     left = shape_rows(a, size, who="mass_gram", what="a")
@@ -122,7 +122,7 @@ def mass_gram(mass: csr_array, a: ArrayLike, b: ArrayLike) -> FloatArray:
 def mass_norm(mass: csr_array, a: FloatArray) -> float:
     """Norm sqrt(a^T (M kron I3) a) of a shape vector (3n,): for a displacement, its L2 norm.
 
-    Raises ValueError for a block of shapes, which `mass_norms` takes.
+    Raises ValueError for a block of shapes; use `mass_norms` for these.
     """
     _check_vector(a, who="mass_norm", block="mass_norms")
     return float(np.sqrt(np.dot(a, apply_mass(mass, a))))
@@ -131,7 +131,7 @@ def mass_norm(mass: csr_array, a: FloatArray) -> float:
 def mass_norms(mass: csr_array, a: ArrayLike) -> FloatArray:
     """Norms (k,) of the rows of a block of shapes (k, 3n).
 
-    Raises ValueError for other shapes, also for a vector, which `mass_norm` takes.
+    Raises ValueError for other shapes, and for a vector; use `mass_norm` for that.
     """
     rows = shape_rows(a, 3 * mass.shape[0], who="mass_norms", what="a")
     norms: FloatArray = np.sqrt(np.einsum("ij,ij->i", rows, apply_mass(mass, rows)))

@@ -19,12 +19,12 @@ _ROUNDING = 4.0 * np.finfo(float).eps
 
 @dataclass(frozen=True)
 class MirrorPlane:
-    """The plane through a point, across a normal.
+    """The plane through a point with a normal.
 
     Parameters
     ----------
     normal : three numbers
-        Of any length but zero; kept as a unit vector.
+        Of any nonzero length; stored as a unit vector.
     point : three lengths, default the origin
         Any point of the plane, in the mesh's length unit.
     deviation : float, optional
@@ -52,7 +52,8 @@ class MirrorPlane:
         largest = np.abs(normal).max()
         if largest == 0:
             raise ValueError("MirrorPlane: the normal is zero; give the direction across the plane")
-        if abs(np.linalg.norm(normal) - 1.0) > _ROUNDING:  # else files give back the same plane
+        # unit normals stay unchanged, so that reading a file gives the same plane
+        if abs(np.linalg.norm(normal) - 1.0) > _ROUNDING:
             normal = normal / largest
             normal = normal / np.linalg.norm(normal)
         if self.deviation is not None:
@@ -91,16 +92,16 @@ class MirrorPlane:
         return np.asarray(self.matrix @ given @ self.matrix)
 
     def bounds(self, bounds: ArrayLike) -> FloatArray:
-        """The least half widths, (..., 3), of a box that has the mirror image of a centred box.
+        """Half widths, (..., 3), of the smallest box with the mirror image of a centred box.
 
-        For translations up to `bounds`, and to first order for angles. Along the coordinate axes
-        nothing changes; across an oblique plane the box grows.
+        Exact for translations up to `bounds`, and to first order for angles. Across a coordinate
+        plane nothing changes; across an oblique plane the box grows.
         """
         return np.asarray(as_arrays("MirrorPlane", "bounds", bounds, 3) @ np.abs(self.matrix))
 
 
 def check_plane(plane: object, who: str) -> None:
-    """ValueError of `who` for something else than a mirror plane, such as a normal."""
+    """Raises a ValueError of `who` for anything but a mirror plane, such as a normal."""
     require_type(who, "plane", plane, MirrorPlane, "give MirrorPlane(normal, point)")
 
 

@@ -11,7 +11,7 @@ _BITS = 10  # per axis
 
 
 def morton_codes(points: FloatArray) -> NDArray[np.uint32]:
-    """Place of each point along a Morton curve: points with similar codes are close together.
+    """Position of each point along a Morton curve: points with similar codes are close together.
 
     Parameters
     ----------

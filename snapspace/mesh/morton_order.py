@@ -14,7 +14,7 @@ def morton_order(
 ) -> tuple[FloatArray, NDArray[np.int32]]:
     """Sort vertices along a Morton (Z-order) curve, and cells by their vertices.
 
-    Then loops over cells find their vertices in the cache, and cells in a row are close together.
+    Loops over cells then find vertices in the cache, and consecutive cells are close together.
 
     Parameters
     ----------

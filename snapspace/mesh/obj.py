@@ -69,7 +69,7 @@ class _Faces:
         self._normals.append(normals_so_far)
 
     def corners(self, count: int) -> IndexArray64:
-        """The vertex of each corner; ValueError if one is no index of `count` vertices."""
+        """The vertex of each corner; ValueError if one is not an index of `count` vertices."""
         try:
             given = [int(word.partition("/")[0]) for word in self._words]
         except ValueError:
@@ -115,8 +115,8 @@ class _Faces:
 def corner_attribute(word: str, place: int, so_far: int) -> int:
     """An index in a corner `i/t/n`: place 1 is its texture coordinate, place 2 its normal.
 
-    `so_far` is the number of these lines up to there, for relative indices. -1 for none, or one
-    that is no number.
+    `so_far` is the number of such lines so far, for relative indices. -1 for none, or one that is
+    not a number.
     """
     parts = word.split("/", 2)
     if len(parts) <= place or not parts[place].lstrip("-").isdecimal() or len(parts[place]) > 18:

@@ -1,6 +1,6 @@
 """Stanford polygon files (.ply): reads ASCII and binary in both byte orders, writes binary.
 
-We do not use meshio's reader: it knows neither `vertex_index` (a common name of the faces'
+We do not use meshio's reader: it supports neither `vertex_index` (a common name of the faces'
 property) nor 16-bit types nor elements other than vertices and faces.
 """
 

@@ -77,7 +77,7 @@ class PlyBody:
     def _read_equal_rows(
         self, element: PlyElement, sizes: list[int]
     ) -> dict[str, PlyColumn] | None:
-        """Read rows whose lists are all as long as those of the first row, or None."""
+        """Read rows whose lists are all as long as those of the first row; None if they are not."""
         fields: list[Any] = []
         for index, (item, size) in enumerate(zip(element.properties, sizes, strict=True)):
             if item.count_type:

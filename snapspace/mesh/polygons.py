@@ -41,7 +41,7 @@ def fan_triangles(corners: NDArray[np.int64], sizes: ArrayLike) -> NDArray[np.in
 
 
 def fan_corners(sizes: ArrayLike) -> NDArray[np.int64]:
-    """The same fans as places in the list of corners, (t, 3); ValueError as for them."""
+    """The same fans as indices into the list of corners, (t, 3); ValueError as `fan_triangles`."""
     size = np.asarray(sizes, dtype=np.int64)
     if size.size and size.min() < 3:
         bad = int(np.argmax(size < 3))

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from .arrays import FloatArray, IndexArray
 
 _EDGES = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
-# |volume| <= _FLAT * (longest edge)^3 is called zero. A regular tet has 0.118; rounding of float64
+# |volume| <= _FLAT * (longest edge)^3 counts as zero. A regular tet has 0.118; rounding of float64
 # coordinates gives about 1e-16; the worst slivers of constrained TetGen meshes have about 1e-9.
 _FLAT = 1e-13
 
@@ -56,7 +56,7 @@ def longest_edges(vertices: FloatArray, tets: IndexArray) -> FloatArray:
 
 
 def flat_tets(vertices: FloatArray, tets: IndexArray, volumes: FloatArray) -> NDArray[np.bool_]:
-    """Which tets have zero volume for their size: |volume| <= 1e-13 (longest edge)^3, (m,)."""
+    """Which tets have no volume for their size: |volume| <= 1e-13 (longest edge)^3, (m,)."""
     return np.asarray(np.abs(volumes) <= _FLAT * longest_edges(vertices, tets) ** 3, dtype=np.bool_)
 
 

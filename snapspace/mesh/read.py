@@ -27,7 +27,7 @@ _SOLID_CELLS = ("hexahedron", "wedge", "pyramid", "polyhedron", "voxel")
 
 
 class MeshNotice(Notice):
-    """A fault in a mesh file that was repaired and that the user should know about."""
+    """A repaired fault of a mesh file that the user should know about."""
 
 
 def read_tets(path: str | os.PathLike[str], *, repair: bool = False) -> TetMesh:
@@ -37,7 +37,7 @@ def read_tets(path: str | os.PathLike[str], *, repair: bool = False) -> TetMesh:
     ----------
     path : path
         MEDIT .mesh or .meshb; Gmsh .msh (versions 2 and 4, ASCII or binary); .vtk; .vtu; TetGen
-        .node or .ele (the other one is found beside it); VegaFEM .veg.
+        .node or .ele (the other one is beside it); VegaFEM .veg.
     repair : bool, default False
         Repair what can be repaired (see `repair_tets`), with a `MeshNotice` for each repair.
 
@@ -71,7 +71,7 @@ def read_tets(path: str | os.PathLike[str], *, repair: bool = False) -> TetMesh:
 def read_tet_arrays(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArray]:
     """Vertices (n, 3) and tets (m, 4) of a file as they are, including inverted tets.
 
-    For poses, whose tets may be inverted. Raises ValueError as `read_tets` does for the file, and
+    For poses, whose tets may be inverted. Raises ValueError for the file as `read_tets` does, and
     for coordinates that are not finite and indices out of range.
     """
     file = existing_file(as_path("read_tets", path), known=_READERS)
@@ -137,5 +137,5 @@ _READERS: dict[str, Callable[[Path], FileContent]] = {
     ".veg": read_veg,
 }
 
-#: Extensions that `read_tets` knows.
+#: Extensions that `read_tets` supports.
 TET_SUFFIXES = tuple(_READERS)

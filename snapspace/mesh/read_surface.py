@@ -27,8 +27,8 @@ def read_surface(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArray]:
     -------
     vertices : ndarray, (n, 3) float64
         In the order of the file, including vertices without faces, so that vertex i corresponds
-        between poses. (An .stl file has no shared vertices, and a glTF file several at seams:
-        equal points are merged, in the order in which they first occur.) Meshes of a glTF file
+        between poses. An .stl file has no shared vertices, and a glTF file has several at seams:
+        their equal points are merged, in the order in which they first occur. Meshes of a glTF file
         are in the frame of its scene.
     faces : ndarray of int32, (f, 3)
         Polygons are triangulated as fans; order and orientation as in the file.
@@ -42,7 +42,7 @@ def read_surface(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArray]:
 
     See Also
     --------
-    open_surface : keeps all that the file holds besides positions, to write it again.
+    open_surface : keeps everything else in the file as well, to write it again.
     """
     file = existing_file(as_path("read_surface", path), known=READERS)
     suffix = file.suffix.lower()
@@ -55,5 +55,5 @@ def read_surface(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArray]:
         return checked_surface(content.vertices, triangles)
 
 
-#: Extensions that `read_surface` knows.
+#: Extensions that `read_surface` supports.
 SURFACE_SUFFIXES = tuple(READERS)

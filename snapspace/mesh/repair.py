@@ -14,7 +14,7 @@ from .validation import check_values, duplicate_tets, repeated_vertex
 
 
 def repair_tets(vertices: ArrayLike, tets: ArrayLike) -> tuple[TetMesh, list[str]]:
-    """Repair the faults that `TetMesh` refuses, where no guess about the shape is needed.
+    """Repair faults that `TetMesh` refuses, as far as this needs no guess about the shape.
 
     In this order, it drops tets that repeat a vertex, repeat another tet or have no volume;
     reorients inverted tets by swapping two of their vertices; keeps the component with the most

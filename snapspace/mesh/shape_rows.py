@@ -11,7 +11,7 @@ FloatArray = NDArray[np.float64]
 
 
 def shape_rows(shapes: ArrayLike, size: int, *, who: str, what: str = "shapes") -> FloatArray:
-    """Shapes or displacements (k, 3n) as float64, one per row; not copied if they are that.
+    """Shapes or displacements (k, 3n) as float64, one per row; not copied if they are so already.
 
     Parameters
     ----------

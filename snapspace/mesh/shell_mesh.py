@@ -18,7 +18,7 @@ from .shell_validation import check_triangles
 
 
 class ShellMesh:
-    """A thin shell: a surface of triangles, open or closed, with a thickness; arrays are read-only.
+    """A thin shell: an open or closed triangle surface with a thickness; arrays are read-only.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ class ShellMesh:
     triangles : array_like of int, (f, 3)
         0-based vertex indices. Neighbours run along their common edge in opposite directions.
     thickness : float or array_like (f,), > 0
-        In the user's length unit, for all triangles or one by one.
+        In the user's length unit, for all triangles or one per triangle.
 
     Raises
     ------
@@ -40,10 +40,10 @@ class ShellMesh:
 
     Notes
     -----
-    Components are allowed; each must be held by handles. Triangles that meet in a single vertex
-    only are in different components, since nothing keeps them from turning about it.
+    Several components are allowed; each must be held by handles. Triangles that share only a vertex
+    are in different components, since nothing keeps them from turning about it.
 
-    The elements of its energy are the triangles a b c, with corners a, b, c, c, and after them the
+    The elements of the energy are the triangles a b c, with corners a, b, c, c, followed by the
     hinges, see `hinges`.
     """
 
@@ -109,7 +109,7 @@ class ShellMesh:
 
     @cached_property
     def elements(self) -> IndexArray:
-        """Triangles, with their last corner twice, and after them hinges, (f + h, 4) int32."""
+        """Triangles, with their last corner twice, followed by hinges, (f + h, 4) int32."""
         corners = np.concatenate([self._triangles[:, [0, 1, 2, 2]], self.hinges])
         return frozen(np.ascontiguousarray(corners))
 

@@ -27,10 +27,10 @@ def shell_of_file(file: SurfaceFile, *, thickness: ArrayLike) -> tuple[ShellMesh
     Returns
     -------
     mesh : ShellMesh
-        The file's vertices in their order, with those at equal positions, as at seams of texture
-        coordinates, as one: else a shell would be cut open there.
+        The file's vertices in their order. Vertices at equal positions, as at seams of texture
+        coordinates, become one; otherwise a shell would be cut open there.
     surface : EmbeddedSurface
-        Exact, with the file as its source.
+        An exact embedding, with the file as its source.
 
     Raises
     ------
@@ -43,7 +43,7 @@ def shell_of_file(file: SurfaceFile, *, thickness: ArrayLike) -> tuple[ShellMesh
 
 
 def welded(vertices: FloatArray, faces: IndexArray) -> tuple[FloatArray, IndexArray, IndexArray]:
-    """Vertices (w, 3) at different positions, in order; faces (f, 3) of them; and their indices.
+    """Vertices (w, 3) at different positions, in order; faces (f, 3) of these; and indices.
 
     The indices (w,) are those of the first vertex at each position.
     """

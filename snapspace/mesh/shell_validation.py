@@ -13,7 +13,7 @@ _CURE = (
     "snapspace.mend_surface(vertices, faces, close_holes=False) (command line: snapspace check "
     "FILE --fix OUT)"
 )
-# 2 area <= _FLAT * (longest edge)^2 is called zero. An equilateral triangle has 0.87; rounding of
+# 2 area <= _FLAT * (longest edge)^2 counts as zero. An equilateral triangle has 0.87; rounding of
 # float64 coordinates gives about 1e-16.
 _FLAT = 1e-12
 

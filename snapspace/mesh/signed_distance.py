@@ -23,11 +23,11 @@ class SignedDistance:
     ----------
     vertices : ndarray, (s, 3)
     faces : ndarray of int, (f, 3)
-        Closed and oriented outward. Where faces intersect, signs beside them may be wrong.
+        Closed and oriented outward. Where faces intersect, signs near them may be wrong.
 
     Notes
     -----
-    The sign is that of the angle-weighted normal at the closest point, which is right for every
+    The sign is that of the angle-weighted normal at the closest point, which is correct for every
     point: Baerentzen and Aanaes, "Signed Distance Computation Using the Angle Weighted
     Pseudonormal", 2005.
     """

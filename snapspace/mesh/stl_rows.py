@@ -1,4 +1,4 @@
-"""The two kinds of STL file: which one a file is, and where its numbers are."""
+"""The two kinds of STL file: which kind a file is, and where its numbers are."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ Spans = NDArray[np.int64]
 
 
 def triangle_count(data: bytes) -> int | None:
-    """Number of triangles of a binary file, None for a text.
+    """Number of triangles of a binary file, None for a text file.
 
-    The size decides: many programs begin binary files with "solid", the first word of a text.
+    The size decides: many programs begin binary files with "solid", the first word of text files.
 
     Raises
     ------
@@ -42,7 +42,7 @@ def triangle_count(data: bytes) -> int | None:
 
 
 def text_spans(data: bytes) -> tuple[Spans, Spans]:
-    """Where the words of all vertices (3 t, 3, 2) and normals (t, 3, 2) of a text are."""
+    """Where the words of all vertices (3 t, 3, 2) and normals (t, 3, 2) of a text file are."""
     vertices, normals = (
         np.array([match.regs[1:] for match in pattern.finditer(data)], np.int64).reshape(-1, 3, 2)
         for pattern in (_VERTEX, _NORMAL)

@@ -48,7 +48,7 @@ def vertex_normals(vertices: FloatArray, faces: IndexArray) -> FloatArray:
         Length 1; zero where a vertex belongs to no face or the face normals cancel.
     """
     corners = vertices[faces]
-    # the cross product's length is twice the area: the weight comes for free
+    # the length of the cross product is twice the area, which is the weight
     weighted = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals = np.stack(
         [

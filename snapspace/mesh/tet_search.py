@@ -1,4 +1,4 @@
-"""Where points lie in a tet mesh: the tet around each, or the nearest boundary face."""
+"""Where points lie in a tet mesh: the tet around each point, or the nearest boundary face."""
 
 from __future__ import annotations
 
@@ -153,8 +153,9 @@ def least_extrapolated(
     Returns
     -------
     tets : ndarray of int, (k,)
-        Chosen among all that share a vertex with the face: the tet behind the face may be a sliver,
-        whose coordinates explode off its plane. Tets elsewhere may belong to another limb.
+        Chosen among all that share a vertex with the face, since the tet behind the face may be a
+        sliver, whose coordinates explode off its plane, and tets elsewhere may belong to another
+        limb.
     weights : ndarray, (k, 4)
         Barycentric coordinates, with the smallest sum of absolute values.
     """

@@ -27,7 +27,7 @@ def check_mesh(vertices: FloatArray, tets: IndexArray, *, who: str) -> FloatArra
 
 
 def check_values(vertices: FloatArray, tets: IndexArray, *, who: str) -> None:
-    """Raise ValueError for what cannot be repaired: no tets, not finite, index out of range."""
+    """Raise ValueError for faults without repair: no tets, not finite, index out of range."""
     if not len(tets):
         raise InputError(who, "there are no tets; at least one is needed")
     check_points(vertices, who=who)
@@ -115,7 +115,7 @@ def _check_volumes(
         )
     bad = np.flatnonzero(flat_tets(vertices, tets, volumes))
     if bad.size == len(tets):
-        # dropping them would leave none
+        # dropping them would leave no tets
         raise InputError(
             who,
             f"every tet ({len(tets)}) has zero volume: the vertices are in one plane, too close "

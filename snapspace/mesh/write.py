@@ -34,7 +34,7 @@ _TET_FORMATS: dict[str, tuple[str, _Options]] = {
     ".vtk": ("vtk", {"binary": True}),
     ".mesh": ("medit", {}),
 }
-# Share of the diagonal by which single precision may move vertices without a notice.
+# Largest share of the diagonal by which single precision moves vertices without a notice.
 _ROUNDED = 1e-4
 # Gmsh's data sections hold scalars, vectors and 3 x 3 tensors only; MEDIT files hold none.
 _GMSH_COMPONENTS = (1, 3, 9)
@@ -55,7 +55,7 @@ def write_tets(
         .msh (Gmsh 4.1, binary), .vtu or .vtk (binary, for ParaView), .mesh (MEDIT, ASCII).
     mesh : TetMesh
     vertices : array_like, (n, 3), optional
-        A deformed shape to write in place of `mesh.vertices`.
+        A deformed shape to write instead of `mesh.vertices`.
     point_data : mapping of names to (n,) or (n, k) arrays, optional
         Values at the vertices; 1, 3 or 9 per vertex for .msh, none for .mesh.
 
@@ -111,7 +111,7 @@ def write_surface(path: str | os.PathLike[str], vertices: ArrayLike, faces: Arra
     Warns
     -----
     MeshNotice
-        If single precision moves vertices by more than 1e-4 of the diagonal, as it does far from
+        If single precision moves vertices by more than 1e-4 of the diagonal, as happens far from
         the origin.
     """
     file = writable_path(as_path("write_surface", path), known=_SURFACE_WRITERS)
@@ -197,5 +197,5 @@ _SURFACE_WRITERS: dict[str, Callable[[Path, FloatArray, IndexArray], None]] = {
     ".stl": write_stl,
 }
 
-#: Extensions that `write_tets` and `write_surface` know.
+#: Extensions that `write_tets` and `write_surface` support.
 TET_OUTPUTS, SURFACE_OUTPUTS = tuple(_TET_FORMATS), tuple(_SURFACE_WRITERS)

@@ -1,4 +1,4 @@
-"""What the page needs to draw a surface with the user's own materials."""
+"""The arrays with which the page draws a surface in the user's own materials."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from ..mesh.surface_file.drawn_points import drawn_points
 from ..mesh.surface_file.own_look import own_look
 from .container import Arrays
 
-#: Textures of more bytes in all stay out of the page, which is read as a whole.
+#: Textures of more bytes in total are left out of the page, which is read as a whole.
 MOST_TEXTURE_BYTES = 1 << 25
 
 _Drawn = tuple[Arrays, dict[str, Any] | None]
-#: What of a surface is not shown.
+#: Notes about what is not shown of a surface.
 _Notes = list[str]
 
-# Of files in use: the models that grow share one, and a user is told once what is not shown.
+# Results for files in use: growing models share a file, and the user gets its notes only once.
 _KNOWN: WeakKeyDictionary[SurfaceFile, tuple[_Drawn, _Notes]] = WeakKeyDictionary()
 
 
@@ -43,20 +43,19 @@ def appearance_arrays(surface: EmbeddedSurface) -> _Drawn:
     Warns
     -----
     MeshNotice
-        Where materials are damaged, textures are missing, or they are too large for a page; once
-        for a file.
+        If materials are damaged, or textures are missing or too large for a page; once per file.
     """
     return ({}, None) if surface.source is None else file_arrays(surface.source)
 
 
 def file_arrays(source: SurfaceFile) -> _Drawn:
-    """`appearance_arrays` of a surface that is in no mesh yet."""
+    """`appearance_arrays` of a surface that is not embedded in a mesh yet."""
     arrays, about = _known(source)[0]
     return dict(arrays), about
 
 
 def appearance_notes(source: SurfaceFile) -> tuple[str, ...]:
-    """What of a surface's own materials is not shown, and why; warns as `appearance_arrays`."""
+    """Which of a surface's own materials are not shown, and why; warns as `appearance_arrays`."""
     return tuple(_known(source)[1])
 
 

@@ -1,4 +1,4 @@
-"""The basis of a model in a file; it takes most of the bytes."""
+"""The basis of a model in a file, which takes most of the bytes."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from ..subspace import AffineSubspace
 
 FloatArray = NDArray[np.float64]
 
-#: Single precision where that loses nothing, as in all models that `reduce` has made since version
-#: 3 of the files.
+#: Single precision if that loses nothing, as in all models of `reduce` since version 3 of the
+#: files.
 DTYPES = (np.float32, np.float64)
 
 

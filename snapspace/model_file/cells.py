@@ -22,6 +22,6 @@ def cell_arrays(mesh: Body) -> Arrays:
 
 
 def thickness(arrays: Arrays) -> NDArray[np.float64] | float:
-    """The thickness of a shell, as `ShellMesh` takes it."""
+    """The thickness of a shell, for `ShellMesh`."""
     values = arrays["thickness"]
     return float(values[0]) if values.size == 1 else values

@@ -22,7 +22,7 @@ Types = type | tuple[type, ...]
 
 
 def write_container(path: Path, arrays: Arrays, header: dict[str, str]) -> None:
-    """Writes arrays and header with their checksum: the whole file, or none."""
+    """Writes arrays and header with their checksum, either the whole file or none."""
     arrays = {name: np.ascontiguousarray(array) for name, array in arrays.items()}
     header = {**header, "checksum": checksum(arrays, header)}
     content = safetensors_bytes(arrays, header)
@@ -41,14 +41,14 @@ def read_container(path: Path) -> tuple[Arrays, dict[str, str]]:
             f"{path}: the model cannot be read ({error.strerror or error}); copy it again"
         ) from None
     except (SafetensorError, ValueError, TypeError, LookupError, AttributeError):
-        # their messages speak of the container's parts, which no user knows
+        # their messages name parts of the container, which users do not know
         raise ValueError(
             f"{path}: not a complete snapspace model; copy or build it again"
         ) from None
 
 
 def check_dtypes(path: Path, arrays: Arrays, dtypes: Mapping[str, Types]) -> None:
-    """ValueError unless every array is there and has its type, or one of several."""
+    """ValueError unless every array exists and has its type, or one of several."""
     for name, dtype in dtypes.items():
         if name not in arrays:
             raise ValueError(f"{path}: the array '{name}' is missing; build the model again")
@@ -106,8 +106,8 @@ def check_shapes(arrays: Arrays, shapes: Mapping[str, tuple[int, ...]]) -> None:
 def checksum(arrays: Arrays, header: dict[str, str]) -> str:
     """SHA-256 of arrays and header, 64 hex digits.
 
-    It is the same for models of identical runs, because it leaves out their timings, which have
-    their own checksum.
+    It is the same for identical runs, because it leaves out the timings, which have their own
+    checksum.
     """
     digest = hashlib.sha256()
     for key in sorted(header):

@@ -16,7 +16,7 @@ DTYPES: dict[str, type] = {
 }
 #: Only in estimators that give thorough certificates.
 MOVEMENT = "estimator_movement_ratios"
-#: Of the residual. Files of earlier calibrations have none, and it is 1.
+#: Exponent of the residual. Files of older calibrations lack it, and then it is 1.
 EXPONENT = "estimator_exponent"
 OPTIONAL: dict[str, type] = {MOVEMENT: np.float64, EXPONENT: np.float64}
 

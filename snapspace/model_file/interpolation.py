@@ -30,7 +30,7 @@ _COMMON: dict[str, Types] = {
     "training_parameters": np.float64,
     "training_coordinates": np.float64,
 }
-#: Few tets in place of the quartics; their rows are computed from the basis on loading.
+#: A few tets instead of the quartics; their rows are computed from the basis on loading.
 _CUBATURE: dict[str, Types] = {"cubature_tets": np.int32, "cubature_weights": np.float64}
 DTYPES = {**_COMMON, **cells.TETS, "quartics": np.float64}
 CUBATURE_DTYPES = {**_COMMON, **cells.TETS, **_CUBATURE}

@@ -9,12 +9,12 @@ import numpy as np
 from ..material import MATERIALS, Material
 from .container import Arrays, check_shapes
 
-#: Moduli of all tets, (m, k) in the order of the material's names; only where they differ.
+#: Moduli of all tets, (m, k) in the order of the material's names; only if they differ.
 MODULI = "material_moduli"
 
 
 class UnknownMaterialError(ValueError):
-    """A material that this version does not know."""
+    """A material that is unknown to this version."""
 
 
 def material_arrays(material: Material) -> Arrays:

@@ -31,7 +31,7 @@ from .container import (
 )
 
 FORMAT = "snapspace-model"
-#: Of packed models, for pages and <snapspace-viewer>, in the same container.
+#: Format of packed models, for pages and <snapspace-viewer>, in the same container.
 PACKED_FORMAT = "snapspace-page"
 VERSION = 4
 #: Versions that `load` reads. In version 1 the material was always St.Venant-Kirchhoff. Up to
@@ -101,9 +101,9 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
     Raises
     ------
     ValueError
-        For something else than a path. If the file is missing, truncated, altered (checksum), of
-        another kind, such as a mesh or a packed model, of a newer version or of a material that is
-        not known, or if an array is missing, has the wrong type or size or a number that is not
+        For something other than a path; if the file is missing, truncated, altered (checksum), of
+        another kind, such as a mesh or a packed model, of a newer version, or of an unknown
+        material; or if an array is missing, has the wrong type or size, or a number that is not
         finite. The message names the file and the cure.
     """
     path = as_path("load", path, what=f"{SUFFIX} file")
@@ -169,7 +169,7 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
 
 
 def _check_kind(path: Path) -> None:
-    """ValueError that says what a file is that does not end in .snapspace."""
+    """ValueError, which says what the file is, unless its name ends in .snapspace."""
     if path.suffix.lower() != SUFFIX:
         raise ValueError(
             f"{path}: this is {file_kind(path)}, but a model ({SUFFIX}) is needed; `snapspace "

@@ -33,7 +33,7 @@ _COMMON: dict[str, Types] = {
     "training_parameters": np.float64,
     "training_coordinates": np.float64,
 }
-#: Few tets in place of the quartic; their rows are computed from the basis on loading, unless they
+#: A few tets instead of the quartic; their rows are computed from the basis on loading, unless they
 #: have local coordinates.
 _CUBATURE: dict[str, Types] = {"cubature_tets": np.int32, "cubature_weights": np.float64}
 DTYPES = {**_COMMON, **cells.TETS, "quartic": np.float64}

@@ -20,9 +20,9 @@ DTYPES: dict[str, type] = {
 SOURCE = "surface_source"
 #: The materials and textures that the file refers to, one after the other.
 BESIDE = "surface_beside"
-#: The entry of what the page draws, which reads no surface files.
+#: The entry with what the page draws, since the page does not read surface files.
 APPEARANCE = "appearance"
-#: Files of more bytes are not kept; `snapspace pose --surface` takes them when it writes.
+#: Files of more bytes are not stored; pass them to `snapspace pose --surface` for writing.
 LARGEST_SOURCE = 1 << 26
 
 
@@ -115,7 +115,7 @@ def _kept(surface: EmbeddedSurface) -> SurfaceFile | None:
 
 
 def _source(arrays: Arrays, content: dict[str, Any]) -> SurfaceFile | None:
-    """The user's file; ValueError if it cannot be unpacked or is larger than any that is kept."""
+    """The user's file; ValueError if it cannot be unpacked or is larger than stored files."""
     if SOURCE not in arrays:
         return None
     about = content[SOURCE]
@@ -135,7 +135,7 @@ def _source(arrays: Arrays, content: dict[str, Any]) -> SurfaceFile | None:
 
 
 def _kept_beside(source: SurfaceFile) -> dict[str, bytes]:
-    """What is beside the file, unless it is larger than what is kept."""
+    """The files beside the file, unless they are too large to be stored."""
     size = sum(map(len, source.beside.values()))
     return dict(source.beside) if size <= LARGEST_SOURCE else {}
 

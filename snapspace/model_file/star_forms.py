@@ -1,6 +1,6 @@
-"""What the stars of a surface that is as rigid as possible leave of its energy, in a file.
+"""The energy of an as-rigid-as-possible surface that is not in its stars, in a file.
 
-It depends on all vertices. With it, readers need the stars of few vertices only, as the page does.
+It depends on all vertices. With it, readers such as the page need the stars of only a few vertices.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from .container import Arrays
 
 #: Of a posing model, (d, d); of an interpolation, (poses, d + 1, d + 1).
 REMAINDER, FORMS = "stars_remainder", "stars_forms"
-#: `BlendedStars.dirichlet_forms`, for readers that have no time for them: (poses, d, d).
+#: `BlendedStars.dirichlet_forms`, for readers that have no time to compute them: (poses, d, d).
 DIRICHLET = "stars_dirichlet"
 
 
-#: The triangles of the chosen stars, see `StarTriangles`; none if each is one ring of a vertex.
+#: The triangles of the chosen stars, see `StarTriangles`; none for one-rings.
 CHOSEN = "stars"
 #: The same of the stars around the vertices where residuals are read.
 SAMPLED = "estimator_stars"
@@ -50,7 +50,7 @@ def form_arrays(blends: BlendedSum, problem: InterpolationProblem) -> Arrays:
 def sampled_arrays(
     problem: PosingProblem | InterpolationProblem, estimator: ErrorEstimator | None
 ) -> Arrays:
-    """The stars around the sampled vertices of an estimator; none if each is one ring."""
+    """The stars around the sampled vertices of an estimator; none for one-rings."""
     if estimator is None or not problem.material.settings.get("radius"):
         return {}
     stars = stars_of(problem)[0]

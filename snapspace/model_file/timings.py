@@ -1,4 +1,4 @@
-"""Timings in a model's record, kept apart from what identical runs have in common."""
+"""Timings in a model's record, separate from the parts that are equal in identical runs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ TIMINGS, CHECKSUM = "timings", "timings_checksum"
 
 
 def split(record: Any) -> tuple[Any, list[list[Any]]]:
-    """A record without its seconds, and the seconds as [place, value]: a place lists its keys."""
+    """A record without its seconds, and the seconds as [place, value]; a place lists its keys."""
     if isinstance(record, list):
         parts = list(enumerate(record))
     elif isinstance(record, dict):
@@ -55,7 +55,7 @@ def timing_header(timings: list[list[Any]]) -> dict[str, str]:
 
 
 def is_unaltered(header: dict[str, str]) -> bool:
-    """Whether the seconds in a header match their checksum; true if the header has neither."""
+    """Whether the seconds in a header match their checksum; True if the header has neither."""
     if TIMINGS not in header:
         return CHECKSUM not in header
     return header.get(CHECKSUM) == _checksum(header[TIMINGS])

@@ -11,7 +11,7 @@ from ..subspace import AffineSubspace
 
 
 def estimator_arrays(model: PosingModel | InterpolationModel) -> Arrays:
-    """What the gradient at the sampled vertices depends on, and the calibration.
+    """The arrays for the gradient at the sampled vertices, and the calibration.
 
     Empty if the model is not calibrated. Modes are in single precision: the rounding of 16-bit
     integers would hide small residuals.

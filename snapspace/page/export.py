@@ -81,7 +81,7 @@ def export_html(
     Raises
     ------
     ValueError
-        For something else than a model, an unknown extension, or if the file cannot be written.
+        For something other than a model, an unknown extension, or if the file cannot be written.
     """
     check_model(model, "export_html", "give model, path")
     path = as_path("export_html", path)
@@ -119,7 +119,7 @@ def export_packed(
     Raises
     ------
     ValueError
-        For something else than a model, an unknown extension, or if the file cannot be written.
+        For something other than a model, an unknown extension, or if the file cannot be written.
     """
     check_model(model, "export_packed", "give model, path")
     path = as_path("export_packed", path)

@@ -12,7 +12,7 @@ _CURE = "Its problem file can give the plane, as “mirror”."
 
 
 def mirror_about(model: PosingModel, plane: MirrorPlane | None = None) -> dict[str, Any]:
-    """What the page needs to mirror poses, or why it cannot.
+    """The data with which the page mirrors poses, or the reason why it cannot.
 
     Parameters
     ----------

@@ -35,7 +35,7 @@ from .mirror import mirror_about
 from .painted import handle_of_vertex
 from .shape_space import quantised
 
-#: Since version 2 the page takes any material, by name.
+#: Since version 2 the page supports any material, by name.
 VERSION = 2
 AXES = ("x", "y", "z")
 
@@ -74,7 +74,7 @@ def packed(
     Returns
     -------
     bytes
-        safetensors layout; the same bytes for the same model and name. Shapes of the surface
+        A safetensors layout; the same model and name give the same bytes. Shapes of the surface
         differ from the model's by about 1e-5 of the displacement.
 
     Raises
@@ -82,7 +82,7 @@ def packed(
     TypeError
         For a model of an unknown type.
     ValueError
-        For an unknown axis, or a title that is no string.
+        For an unknown axis, or a title that is not a string.
     """
     require_type("packed", "the title", name, str, "give a string")
     if up is None:
@@ -125,7 +125,7 @@ def packed(
 
 
 def _density(model: ReducedModel) -> str:
-    """The name of the density of the cubature's elements, or of the body where there is none."""
+    """The name of the density of the cubature's elements, or of the body without a cubature."""
     of = model.problem if model.cubature is None else model.cubature
     return of.material.kind
 
@@ -172,14 +172,14 @@ def _posing_arrays(model: PosingModel) -> Arrays:
 
 
 def _quadratic_part(model: PosingModel) -> FloatArray:
-    """K of the handles, with what a cubature's elements leave of the elastic energy."""
+    """K of the handles, plus the elastic energy that is not in a cubature's elements."""
     elastic, K = model.elastic, model.handles.K
     left = elastic.remainder if isinstance(elastic, Cubature) else None
     return K if left is None else K + left
 
 
 def _frame_arrays(model: PosingModel) -> Arrays:
-    """The products that a step in time needs where the first handle moves."""
+    """The products that a step in time needs when the first handle moves."""
     frames = RigidFrames(model.subspace)
     return {
         "frame_modes": frames.modes.astype(np.float32),
@@ -201,7 +201,7 @@ def _elastic_arrays(elastic: Quartic | Cubature | FullEnergy) -> Arrays:
 
 
 def _row_arrays(energy: Cubature | BlendedCubature) -> Arrays:
-    """Rows of all coordinates, or what makes them, cluster by cluster."""
+    """Rows of all coordinates, or their factors, cluster by cluster."""
     return local_arrays(energy) or {"cubature_rows": energy.rows}
 
 

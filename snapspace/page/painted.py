@@ -1,4 +1,4 @@
-"""Handles as they were painted on a body's own surface, which the page's server keeps in models."""
+"""Handles as painted on a body's own surface, which the page's server stores in models."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ..reduction import PosingModel, ReducedModel
 
-#: Of `ReducedModel.provenance`: vertices of the surface by the handle's name.
+#: Key in `ReducedModel.provenance`: vertices of the surface by the handle's name.
 KEY = "painted"
 
 
@@ -35,8 +35,8 @@ def painted_vertices(model: ReducedModel) -> dict[str, list[int]]:
 def handle_of_vertex(model: PosingModel) -> NDArray[np.int32]:
     """The handle of each vertex of the surface, (s,), -1 for none.
 
-    As they were painted, if the model knows that for all its handles. Otherwise a vertex belongs to
-    the handle of its nearest tet vertex.
+    As painted, if the model has that for all its handles. Otherwise a vertex belongs to the handle
+    of its nearest tet vertex.
     """
     names, painted = model.problem.handles.names, painted_vertices(model)
     if set(names) <= set(painted):

@@ -11,7 +11,7 @@ from ..arguments import is_number, shown
 from ..reduction import ReducedModel
 from .export import page_with_model
 
-#: Jupyter's gateway clients close the connection at longer messages (10 MiB, headers included).
+#: Jupyter's gateway clients close the connection for longer messages (10 MiB with headers).
 MOST_BYTES = 10_000_000
 
 # The script is a block: global names, and the packed bytes with them, would outlive document.open.
@@ -31,7 +31,7 @@ unpacked().then(
 class NotebookPage:
     """A page that notebooks display: the value of `model.show()` at the end of a cell.
 
-    The page is part of the cell's output, compressed, and loads nothing else: it works on remote
+    The page is part of the cell's output, compressed, and loads nothing else. So it works on remote
     kernels, and in notebooks that are saved and opened elsewhere. It cannot access the notebook.
 
     Parameters
@@ -52,7 +52,7 @@ class NotebookPage:
     Warns
     -----
     UserWarning
-        If the output has more than 10 MB: some connections to remote kernels refuse it.
+        If the output has more than 10 MB, which some connections to remote kernels refuse.
     """
 
     def __init__(self, model: ReducedModel, *, title: str, up: str | None, height: int) -> None:

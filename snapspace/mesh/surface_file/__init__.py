@@ -1,4 +1,4 @@
-"""Surface files that are written back with new positions and nothing else changed."""
+"""Surface files that are written again with new positions and nothing else changed."""
 
 from .appearance import Appearance, SurfaceMaterial
 from .surface_file import SurfaceFile, open_surface

@@ -21,7 +21,7 @@ _MAGIC = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"GIF8", b"BM")
 
 @dataclass(frozen=True)
 class SurfaceMaterial:
-    """What a polygon is drawn with.
+    """The material of polygons.
 
     color : red, green and blue in [0, 1], linear; the texture is multiplied by it
     texture : index of its base-colour texture, or None
@@ -38,7 +38,7 @@ class SurfaceMaterial:
 
 @dataclass(frozen=True, eq=False)
 class Appearance:
-    """How a surface file wants its polygons to look.
+    """The look of the polygons of a surface file.
 
     texture_coordinates : (c, 2), of each corner, from the upper left corner of the texture to the
         right and down; None: the file has none
@@ -48,7 +48,7 @@ class Appearance:
     materials : at least one
     material_of_polygon : (p,)
     textures : PNG, JPEG, WebP, GIF or BMP files
-    missing : names of files beside this one that were not there, or are no such pictures
+    missing : names of files beside this one that are missing, or not images of these formats
     """
 
     texture_coordinates: Coordinates | None
@@ -61,7 +61,7 @@ class Appearance:
 
     @property
     def shows_anything(self) -> bool:
-        """Whether there is more than one white material without texture, and normals."""
+        """Whether there is anything besides normals and one white material without texture."""
         plain = all(one.texture is None and min(one.color) >= 1.0 for one in self.materials)
         return not plain or self.colors is not None
 
@@ -75,7 +75,7 @@ class Textures:
         self._numbers: dict[str, int | None] = {}
 
     def add(self, name: str, data: bytes | None) -> int | None:
-        """The number of a picture, or None if there is none that browsers draw."""
+        """The index of a picture, or None if it is missing or browsers cannot draw it."""
         if name not in self._numbers:
             if data is not None and _is_picture(data):
                 self._numbers[name] = len(self.files)
@@ -87,7 +87,7 @@ class Textures:
 
 
 def _is_picture(data: bytes) -> bool:
-    """Whether browsers draw a file."""
+    """Whether browsers can draw a file."""
     return data.startswith(_MAGIC) or (data[:4] == b"RIFF" and data[8:12] == b"WEBP")
 
 

@@ -9,7 +9,7 @@ from ...disk.atomic_file import atomic_file
 from .layout import Layout
 from .mtl import pictures
 
-#: More bytes than this are not read: no material is so large.
+#: Files of more bytes than this are not read: no material is that large.
 LARGEST = 1 << 26
 
 

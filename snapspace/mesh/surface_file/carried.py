@@ -1,4 +1,4 @@
-"""Normals and tangents carried along when the points of a surface move."""
+"""Normals and tangents that follow when the points of a surface move."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ def carried(
 ) -> tuple[NDArray[np.intp], FloatArray]:
     """Directions after a deformation.
 
-    Each triangle maps the direction by its own affine deformation, which stretches the normal as
-    it stretches the triangle on average. A direction that several corners share is the mean of
-    theirs, weighted by area at rest. So smooth and sharp edges stay as their author made them.
+    Each triangle maps the direction by its own affine deformation, which stretches the normal by
+    the triangle's mean stretch. A direction that several corners share becomes the mean of their
+    results, weighted by area at rest. So smooth and sharp edges stay as their author made them.
 
     Parameters
     ----------
     directions : Directions
     values : ndarray, (j, 3)
-        Those in the file.
+        The directions in the file.
     old, new : ndarray, (k, 3)
         Points before and after.
     triangles : ndarray of int, (t, 3)
@@ -43,7 +43,7 @@ def carried(
     Returns
     -------
     rows : ndarray of int, (r,)
-        The directions that turned.
+        Indices of the directions that turned.
     turned : ndarray, (r, 3)
         Their new values, as long as the old ones. A direction at triangles without area stays.
     """
@@ -58,9 +58,9 @@ def carried(
         index = used[chosen, corner]
         before, after = frame[chosen], moved[chosen]  # rows: two edges and a normal
         vectors = values[index][:, :, None]
-        if directions.kind == "normal":  # products with the edges and the normal stay
+        if directions.kind == "normal":  # products with the edges and the normal do not change
             mapped = np.linalg.solve(after, before @ vectors)
-        else:  # coordinates in the edges and the normal stay
+        else:  # coordinates by the edges and the normal do not change
             mapped = after.swapaxes(1, 2) @ np.linalg.solve(before.swapaxes(1, 2), vectors)
         weighted = mapped[:, :, 0] * area[chosen, None]
         for axis in range(3):
@@ -83,7 +83,7 @@ def _longest(frames: FloatArray) -> FloatArray:
 def _frames(points: FloatArray, triangles: NDArray[np.int64]) -> tuple[FloatArray, FloatArray]:
     """Two edges and a normal of each triangle, as rows (t, 3, 3), and areas (t,).
 
-    The normal is as long as the side of a square with twice the area, so that frames of similar
+    The normal has the length of the side of a square with twice the area, so that frames of similar
     triangles are similar.
     """
     a, b, c = points[triangles[:, 0]], points[triangles[:, 1]], points[triangles[:, 2]]

@@ -23,7 +23,7 @@ from .ply_layout import ply_layout
 from .stl_layout import stl_layout
 from .weld import close_points, equal_points
 
-# Distance between equal points of different frames: a few roundings of the largest term.
+# Distance below which points of different frames are equal: a few roundings of the largest term.
 _ROUNDING = 5e-7
 
 _Reader = Callable[[bytes], FileContent]
@@ -42,7 +42,7 @@ _LAYOUTS: dict[str, Callable[[bytes, FileContent], Layout]] = {
 
 
 def without_mark(suffix: str, data: bytes) -> bytes:
-    """The bytes without the mark that editors of Windows put before a text."""
+    """The bytes without the byte order mark that Windows editors put before a text."""
     return data.removeprefix(BOM_UTF8) if suffix in _LAYOUTS else data
 
 

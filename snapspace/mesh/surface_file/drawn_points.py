@@ -1,4 +1,4 @@
-"""DrawnPoints: what a graphics program draws of a surface: one normal and colour at each point."""
+"""DrawnPoints: a surface as graphics programs draw it, with one normal and colour per point."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from .surface_file import SurfaceFile
 
 @dataclass(frozen=True, eq=False)
 class DrawnPoints:
-    """Points: a vertex of a surface with one normal, texture coordinate and colour.
+    """Points, each a vertex of a surface with one normal, texture coordinate and colour.
 
     Points are in the order of the vertices; at seams and sharp edges a vertex has several.
 
-    vertex : (r,), of each point
+    vertex : (r,), the vertex of each point
     crease : (r,), points of a vertex with the same number share a normal
     triangles : (f, 3), points; sorted by material
     counts : number of triangles of each material
@@ -67,7 +67,7 @@ def drawn_points(source: SurfaceFile, look: Appearance, *, coordinates: bool) ->
 
 
 def _creases(vertices: IntArray, normals: IntArray | None) -> IntArray:
-    """For each corner, which of its vertex's normals it has, counted from 0, (c,)."""
+    """For each corner, the index of its normal among those of its vertex, (c,)."""
     if normals is None:
         return np.zeros(len(vertices), np.int64)
     pairs, number = np.unique(np.stack([vertices, normals], 1), axis=0, return_inverse=True)
@@ -77,7 +77,7 @@ def _creases(vertices: IntArray, normals: IntArray | None) -> IntArray:
 
 
 def _distinct(columns: list[IntArray]) -> tuple[IntArray, IntArray]:
-    """A row of each distinct row of columns, in ascending order, and each row's number among them.
+    """One row of each distinct row of columns, in ascending order, and each row's index among them.
 
     Column by column: sorting whole rows takes ten times as long.
     """

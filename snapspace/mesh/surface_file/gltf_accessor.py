@@ -30,7 +30,7 @@ class Accessor:
 
 
 def accessor(file: GltfFile, number: int) -> Accessor:
-    """The accessor with a number; ValueError if it is compressed, sparse or out of range."""
+    """The accessor with an index; ValueError if it is compressed, sparse or out of range."""
     try:
         about = file.json["accessors"][number]
         kind, width = np.dtype(_COMPONENTS[about["componentType"]]), _WIDTHS[about["type"]]

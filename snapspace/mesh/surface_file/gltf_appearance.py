@@ -52,7 +52,7 @@ def gltf_appearance(data: bytes, layout: Layout) -> Appearance:
 
 
 def _normals(layout: Layout) -> IntArray | None:
-    """Equal normals of a file have the same number: seams of the texture are no edges."""
+    """Equal normals of a file have the same index: seams of the texture are not edges."""
     found = next((one for one in layout.directions if one.kind == "normal"), None)
     if found is None:
         return None
@@ -75,7 +75,7 @@ def _material(file: GltfFile, about: dict[str, Any], textures: Textures) -> Surf
 
 
 def _base(about: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any] | None]:
-    """What gives a material its colour, and the link to its texture."""
+    """The entry that gives a material its colour, and the link to its texture."""
     glossy = about.get("extensions", {}).get("KHR_materials_pbrSpecularGlossiness")
     base = glossy or about.get("pbrMetallicRoughness", {})
     return base, base.get("diffuseTexture" if glossy else "baseColorTexture")

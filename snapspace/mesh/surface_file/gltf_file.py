@@ -71,7 +71,7 @@ def gltf_file(data: bytes) -> GltfFile:
 
 
 def self_contained(data: bytes, folder: Path) -> bytes:
-    """A .gltf with the buffers and images of its folder inside; as it is if it has none there.
+    """A .gltf with the buffers and images of its folder inside; unchanged if it has none there.
 
     Raises
     ------

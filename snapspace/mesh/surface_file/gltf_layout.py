@@ -25,7 +25,7 @@ def gltf_layout(data: bytes) -> Layout:
     try:
         return _layout(data)
     except (LookupError, TypeError, AttributeError, OverflowError) as error:
-        # JSON of other types than the format has
+        # JSON with types that the format does not have
         raise ValueError(f"it is not a glTF file, or it is incomplete ({error!s:.80})") from None
 
 
@@ -131,7 +131,7 @@ def triangles_of(
 ) -> NDArray[np.int64]:
     """Triangles of a primitive as indices into its own points, (t, 3).
 
-    A transform that mirrors turns them round, so that outward stays outward (glTF 2.0, 3.7.4).
+    A transform that mirrors flips them, so that outward stays outward (glTF 2.0, 3.7.4).
     """
     found = _triangles(file, primitive, count)
     with np.errstate(invalid="ignore"):  # numbers that are not finite are refused as positions
@@ -159,7 +159,7 @@ def _triangles(file: GltfFile, primitive: dict[str, Any], count: int) -> NDArray
 
 
 def _finished(file: GltfFile, points: _Block, data: bytes, new: FloatArray) -> bytes:
-    """The file with new bytes, and the bounds that it states of its positions."""
+    """The file with new bytes and new bounds of its positions."""
     content = copy.deepcopy(file.json)
     single = new.astype(np.float32).astype(np.float64)
     for number, (begin, found) in points.accessors.items():

@@ -1,4 +1,4 @@
-"""Where the meshes of a glTF file stand: the transforms of its nodes."""
+"""Where the meshes of a glTF file are: the transforms of its nodes."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ FloatArray = NDArray[np.float64]
 def mesh_transforms(content: dict[str, Any]) -> dict[int, FloatArray]:
     """The affine map (3, 4) of each mesh in the scene into the scene's frame, by mesh.
 
-    A mesh with a skin stands where its joints put it, so its node's own transform counts for
-    nothing (glTF 2.0, 3.7.3.3).
+    A mesh with a skin is placed by its joints, so its node's own transform is ignored (glTF 2.0,
+    3.7.3.3).
 
     Raises
     ------
     ValueError
-        If two nodes share a mesh, which cannot then be posed in one place only, or the nodes are
-        not a tree.
+        If two nodes share a mesh, since a pose would then move both, or if the nodes are not a
+        tree.
     """
     nodes = content.get("nodes", [])
     scenes = content.get("scenes") or [{"nodes": list(range(len(nodes)))}]

@@ -1,4 +1,4 @@
-"""Layout: what is where in the bytes of a surface file."""
+"""Layout: where the numbers of a surface file are in its bytes."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ class Directions:
 
     slots : places of the j vectors
     of_corner : (c,), the vector of each corner, -1 for none
-    kind : normals stay perpendicular to what they were perpendicular to; tangents move with edges
+    kind : normals stay perpendicular to directions that they were perpendicular to; tangents move
+    with edges
     """
 
     slots: Slots
@@ -68,7 +69,7 @@ class Layout:
         return np.asarray(turned + self.to_world[:, :, 3])
 
     def largest_term(self) -> float:
-        """The largest of the numbers whose sums are the coordinates in the common frame."""
+        """The largest of the terms whose sums are the coordinates in the common frame."""
         sizes = np.abs(self.points.values)
         if self.to_world is not None:
             maps = np.abs(self.to_world)

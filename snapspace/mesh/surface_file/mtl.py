@@ -12,9 +12,9 @@ _OPTIONS = {
 
 
 def read_mtl(text: str, files: dict[str, bytes], textures: Textures) -> dict[str, SurfaceMaterial]:
-    """The materials of a file by name; lines that are not understood are skipped.
+    """The materials of a file by name; unknown lines are skipped.
 
-    files : content of the pictures that are there, by their names in the file
+    files : content of the available pictures, by their names in the file
     """
     found: dict[str, SurfaceMaterial] = {}
     name, color, picture = "", (1.0, 1.0, 1.0), ""
@@ -41,7 +41,7 @@ def read_mtl(text: str, files: dict[str, bytes], textures: Textures) -> dict[str
 
 
 def pictures(text: str) -> list[str]:
-    """Names of the files that the materials' colours are in."""
+    """Names of the files with the materials' colours."""
     lines = [line.strip().partition(" ") for line in text.splitlines()]
     return [picture_name(rest) for word, _, rest in lines if word == "map_Kd"]
 

@@ -15,7 +15,7 @@ from .mtl import read_mtl
 def obj_appearance(layout: Layout, beside: Mapping[str, bytes]) -> Appearance | None:
     """Texture coordinates, colours (`v x y z r g b`) and materials; None without any of them.
 
-    A file that only names a library of materials which is not there has an appearance, to say so.
+    A file that only names a missing library of materials has an appearance that says so.
     """
     lines = _Lines(layout.data)
     textures = Textures()
@@ -44,7 +44,7 @@ def obj_appearance(layout: Layout, beside: Mapping[str, bytes]) -> Appearance | 
 
 
 class _Lines:
-    """The lines of a file that say how its polygons look.
+    """The lines of a file that describe the look of its polygons.
 
     materials : name of each polygon's material, empty for none
     coordinates : (c, 2), or None if no corner has any

@@ -11,7 +11,7 @@ from ..file_content import FileContent
 from .layout import Directions, Layout
 from .slots import TextSlots
 
-# Spaces may include a line that goes on below.
+# Spaces may include the continuation of a line on the next one.
 _GAP = rb"(?:[ \t\f\v]|\\\r?\n)+"
 _LINE = rb"(?:(?<=[\r\n])|\A)(?:[ \t\f\v]|\\\r?\n)*"
 _MTL = re.compile(r"\S.*?\.mtl(?=\s|$)", re.IGNORECASE)
@@ -47,7 +47,7 @@ def _names(text: str) -> list[str]:
 
 
 def _begins_line(data: bytes, place: int) -> bool:
-    """Whether only spaces are before a place in its line."""
+    """Whether there are only spaces before a place in its line."""
     start = max(data.rfind(end, 0, place) for end in (b"\n", b"\r")) + 1
     return not data[start:place].strip()
 

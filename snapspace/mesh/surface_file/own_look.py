@@ -9,7 +9,7 @@ from .surface_file import SurfaceFile
 def own_look(source: SurfaceFile, notes: list[str], *, without: str) -> Appearance | None:
     """The file's appearance, None if it is damaged or has none.
 
-    Adds notes of what is damaged or missing; `without` says what becomes of the surface.
+    Adds notes about damaged or missing parts; `without` says how the surface is shown then.
     """
     try:
         look = source.appearance

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..arrays import FloatArray
 from ..number_text import parse_numbers
 
-#: New bytes for a stretch of old ones: where it starts and ends, and what replaces it.
+#: New bytes for a range of old ones: where it starts and ends, and the replacement.
 Patch = tuple[int, int, bytes]
 
 
@@ -29,7 +29,7 @@ class Slots(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class TextSlots:
-    """Numbers in a text: where the words of each vector start and end, (k, 3) each."""
+    """Numbers in text: where the words of each vector start and end, (k, 3) each."""
 
     data: bytes
     starts: NDArray[np.int64]
@@ -46,7 +46,7 @@ class TextSlots:
         return values
 
     def patches(self, rows: NDArray[np.intp], values: FloatArray) -> list[Patch]:
-        """All digits that reading needs to give the same numbers."""
+        """Patches with all digits, so that reading gives the same numbers."""
         return [
             (start, end, repr(value).encode())
             for start, end, value in zip(
@@ -77,7 +77,7 @@ class BinarySlots:
         return np.stack(columns, axis=1)
 
     def patches(self, rows: NDArray[np.intp], values: FloatArray) -> list[Patch]:
-        """The numbers in the types of the file; ValueError for types that hold no fractions."""
+        """Patches in the types of the file; ValueError for integer types."""
         patches: list[Patch] = []
         for axis, kind in enumerate(self.types):
             if kind.kind != "f":

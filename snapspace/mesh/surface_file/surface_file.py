@@ -1,4 +1,4 @@
-"""SurfaceFile: a surface file that can be written again with other positions."""
+"""SurfaceFile: a surface file that can be written again with new positions."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ from .obj_appearance import obj_appearance
 from .ply_appearance import ply_appearance
 from .slots import Patch, patched
 
-# Formats that programs write with y up: glTF by its specification, OBJ by custom. The others come
-# from scanners and solid modelling, with z up.
+# Formats that programs write with y up: glTF by its specification, OBJ by convention. The others
+# come from scanners and solid modelling, with z up.
 _Y_UP = (".obj", ".glb", ".gltf")
 # Vertices that move by less than this share of the largest coordinate stay as they are.
 _STILL = 1e-12
@@ -39,12 +39,12 @@ _STILL = 1e-12
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SurfaceFile:
-    """The bytes of a surface file, and where its positions are in them.
+    """The bytes of a surface file, and the places of its positions.
 
     Parameters
     ----------
     name : str
-        The file's name; its extension decides the format.
+        The file's name; its extension determines the format.
     data : bytes
         The whole file. A byte order mark before a text is dropped.
     used_only : bool, default False
@@ -59,12 +59,11 @@ class SurfaceFile:
 
     Notes
     -----
-    `with_vertices` puts new positions in the places of the old ones. Normals and tangents in the
-    file are carried along by the deformation of their faces. Everything else stays byte by byte:
-    faces, quads and polygons, their order, texture coordinates, groups, materials, colours, names.
-    In .stl and glTF files each corner has its own point: equal ones are one vertex here, in the
-    order in which they first occur, and are all moved. A .gltf is one file afterwards, with its
-    buffers and images inside.
+    `with_vertices` replaces the old positions by new ones. Normals and tangents in the file follow
+    the deformation of their faces. Everything else stays byte for byte: faces, quads and polygons,
+    their order, texture coordinates, groups, materials, colours, names. In .stl and glTF files each
+    corner has its own point: equal points are one vertex here, in the order in which they first
+    occur, and move together. A .gltf becomes a single file, with its buffers and images inside.
     """
 
     name: str
@@ -150,7 +149,7 @@ class SurfaceFile:
         Returns
         -------
         bytes
-            Vertices that do not move keep their bytes; with none moved it is the same file.
+            Vertices that do not move keep their bytes; if none moves, the file is unchanged.
 
         Raises
         ------
@@ -182,9 +181,9 @@ class SurfaceFile:
     def write(self, path: str | os.PathLike[str], vertices: ArrayLike) -> None:
         """Writes the file with other positions, see `with_vertices`.
 
-        Materials and textures of `beside` that are not in its folder are written there too.
-        ValueError also for a path with another extension, or one that cannot be written; an
-        existing file then stays as it was.
+        Materials and textures of `beside` that are missing in its folder are written as well.
+        ValueError as for `with_vertices`, for a path with another extension, or for one that cannot
+        be written; an existing file then stays as it was.
         """
         file = writable_path(as_path("SurfaceFile.write", path), known=(self.suffix,))
         with located(file):
@@ -205,7 +204,7 @@ class SurfaceFile:
         return patches
 
     def _changed(self, **changes: Any) -> SurfaceFile:
-        """The same bytes with other fields; they are not read again."""
+        """The same file with other fields; its bytes are not read again."""
         other = replace(self, **changes)
         if "_layout" in vars(self):
             vars(other)["_layout"] = self._layout
@@ -228,7 +227,7 @@ class SurfaceFile:
 
 
 def open_surface(path: str | os.PathLike[str]) -> SurfaceFile:
-    """Opens a surface file, so that it can be written again with other positions.
+    """Opens a surface file, so that it can be written again with new positions.
 
     Parameters
     ----------
@@ -243,7 +242,7 @@ def open_surface(path: str | os.PathLike[str]) -> SurfaceFile:
     Raises
     ------
     ValueError
-        As for `read_surface`, and if its positions cannot be located.
+        As for `read_surface`, and if positions cannot be located in the file.
 
     Examples
     --------
@@ -264,7 +263,7 @@ def open_surface(path: str | os.PathLike[str]) -> SurfaceFile:
 def checked_surface(
     vertices: ArrayLike, triangles: ArrayLike, *, who: str = "read_surface"
 ) -> tuple[FloatArray, IndexArray]:
-    """Vertices (n, 3) and faces (f, 3) of a file; ValueError if they are no surface."""
+    """Vertices (n, 3) and faces (f, 3) of a file; ValueError if they are not a surface."""
     points = as_points(vertices, who=who)
     if np.asarray(triangles).ndim and not len(np.asarray(triangles)):
         raise ValueError(f"it has no faces ({len(points)} vertices)")

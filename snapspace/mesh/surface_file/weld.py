@@ -28,7 +28,7 @@ def equal_points(points: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp]
     """
     positive = np.ascontiguousarray(points) + 0.0  # -0.0 + 0.0 is 0.0
     bits = positive.view(np.uint64)
-    # odd multipliers: different bits seldom have the same key, and the result is checked
+    # odd multipliers: different bits rarely have the same key, and the result is checked
     odd = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], np.uint64)
     mixed = bits * odd
     mixed ^= mixed >> np.uint64(29)
@@ -42,7 +42,7 @@ def equal_points(points: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp]
 
 
 def close_points(points: FloatArray, distance: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Groups points that are at most `distance` from another one of the group, as `equal_points`.
+    """Groups points that are at most `distance` from another of the group, as `equal_points`.
 
     For example points that two programs or two frames have rounded differently.
     """
