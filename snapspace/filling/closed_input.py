@@ -21,7 +21,7 @@ from ..notice import notify
 
 
 class NoSolidError(ValueError):
-    """A surface that no method can fill: it is flat, or has parts that are apart."""
+    """A surface that no method can fill: it is flat, or has separate parts."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,8 +47,9 @@ def closed_input(
 ) -> ClosedInput:
     """Checks and scales a surface to diagonal one; ValueError unless it encloses a solid.
 
-    With `mend` a surface that is not closed or not oriented alike is mended, see `mend_surface`,
-    with a `MeshNotice` that says what was done. With `leave_open` too, it may still be open then.
+    With `mend`, a surface that is not closed or not consistently oriented is mended, see
+    `mend_surface`, and a `MeshNotice` says what was done. With `leave_open` as well, the result may
+    still be open.
     """
     points = as_points(vertices, who=who)
     triangles = as_indices(faces, corners=3, who=who, what="faces")
@@ -102,7 +103,7 @@ def _no_volume(triangles: IndexArray, *, who: str) -> NoSolidError:
 
 
 def _one_part(points: FloatArray, triangles: IndexArray, *, who: str) -> IndexArray:
-    """The triangles without small parts that are apart; ValueError for large ones."""
+    """The triangles without small separate parts; ValueError for large ones."""
     group, share = parts_apart(points, triangles)
     large = int((share > DUST).sum())
     if large > 1:

@@ -32,27 +32,27 @@ def fill_surface(
     vertices : array_like, (s, 3)
         Points of the surface.
     faces : array_like of int, (f, 3)
-        Closed and oriented alike, outward or inward. Self-intersections are allowed: inside is
-        where the winding number is positive, so overlapping parts become one.
+        Closed and consistently oriented, outward or inward. Self-intersections are allowed: the
+        inside is where the winding number is positive, so overlapping parts become one.
     edge_length : float, default 0.02
-        Wanted length of the tets' edges where the surface does not need shorter ones, as a share
-        of the diagonal of the surface's bounding box.
+        Target edge length of the tets where the surface does not need shorter edges, as a share of
+        the diagonal of the surface's bounding box.
     tolerance : float, default 5e-4
-        How far the boundary of the tets may be from the surface, as a share of the diagonal.
-        Thinner parts may be lost, and narrower gaps may be closed. Smaller values need more tets
-        and time.
+        Largest distance of the tets' boundary from the surface, as a share of the diagonal. Thinner
+        parts may be lost, and narrower gaps may be closed. Smaller values need more tets and time.
     mend : bool, default False
         Accept any triangles, such as scans with holes and triangle soup. Points are merged, faces
-        turned and flat or small holes closed, see `mend_surface`; where it stays open, inside is
-        where the generalised winding number is above one half. A `MeshNotice` says what was done.
+        flipped and flat or small holes closed, see `mend_surface`. If the surface stays open, the
+        inside is where the generalised winding number is above one half. A `MeshNotice` says what
+        was done.
     progress : callable, optional
         Called with the number of fTetWild's passes over all tets so far.
 
     Returns
     -------
     TetMesh
-        Its boundary is near the surface but has its own vertices: `embed_surface` expresses the
-        given surface by the tets.
+        Its boundary is near the surface but has its own vertices; `embed_surface` embeds the given
+        surface in the tets.
 
     Raises
     ------
@@ -60,20 +60,21 @@ def fill_surface(
         If the extra `snapspace[fill]`, which has fTetWild, is not installed; a ValueError.
     ValueError
         For wrong shapes or types, coordinates that are not finite, an index out of range, no faces,
-        a surface that is not closed or not oriented alike (without `mend`), or encloses no volume,
-        options out of range, if the tets form several separate solids, or if fTetWild fails.
+        a surface that is not closed or not consistently oriented (without `mend`) or encloses no
+        volume, options out of range, if the tets form several separate solids, or if fTetWild
+        fails.
 
     Notes
     -----
     Hu, Schneider, Wang, Zorin, Panozzo, "Fast Tetrahedral Meshing in the Wild", 2020 (package
     pytetwild). It takes from seconds to minutes, and can be interrupted with Ctrl-C. It stops
-    improving the tets at an AMIPS energy of 30: that suffices for deformations.
-    **Not reproducible:** it inserts the points in an order drawn from the system's random numbers
-    and offers no seed, so two runs differ in some tets. Write the mesh to a file to keep it.
+    improving the tets at an AMIPS energy of 30, which suffices for deformations. **Not
+    reproducible:** it inserts the points in an order drawn from the system's random numbers and
+    offers no seed, so two runs differ in some tets. Write the mesh to a file to keep it.
 
     See Also
     --------
-    stuff_surface : takes seconds where this may take minutes, for surfaces without very thin parts.
+    stuff_surface : fills surfaces without very thin parts in seconds instead of minutes.
     """
     surface = closed_input(vertices, faces, who="fill_surface", mend=mend, leave_open=True)
     check_share(edge_length, "edge_length", largest=1.0, who="fill_surface")

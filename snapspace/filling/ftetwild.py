@@ -71,8 +71,8 @@ def ftetwild(
     see `ftetwild_watch.py`.
     """
     need_extra("fill", who="fill_surface")
-    # Its tree of bounding boxes halves the faces in the order in which they come. If neighbours are
-    # far apart in it, every query visits most faces: 50,000 of them took over ten minutes.
+    # Its tree of bounding boxes halves the faces in the order of the input. If neighbours are far
+    # apart in that order, every query visits most faces: 50,000 faces took over ten minutes.
     vertices, faces = morton_order(vertices, faces)
     with tempfile.TemporaryDirectory(prefix="snapspace-") as name:
         folder = Path(name)
@@ -118,7 +118,7 @@ class _Output:
 
 
 def _run(folder: Path, progress: Callable[[int], None] | None = None) -> tuple[int, str]:
-    """Exit status and output of the program; ends its process if this one is asked to stop."""
+    """Exit status and output of the program; ends its process if this one must stop."""
     watched, alive = os.pipe()  # `alive` closes when this process ends in any way
     try:
         with subprocess.Popen(

@@ -11,9 +11,9 @@ from types import ModuleType
 
 import numpy as np
 
-#: Improving the tets ends when the worst has this conformal AMIPS energy; that of a regular one is
-#: three. fTetWild's own 10 takes more than twice as long (docs/notes/filling.md), but solvers take
-#: as many evaluations, and models have the same errors. With 100 dihedral angles fall to half a
+#: The tets are improved until the worst has this conformal AMIPS energy; a regular tet has three.
+#: fTetWild's default of 10 takes more than twice as long (docs/notes/filling.md), but solvers need
+#: as many evaluations, and models have the same errors. With 100, dihedral angles fall to half a
 #: degree.
 STOP_ENERGY = 30.0
 

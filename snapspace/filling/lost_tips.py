@@ -9,15 +9,16 @@ from scipy.sparse.csgraph import connected_components
 
 from ..mesh.edges import edges_of
 
-#: Largest share of the vertices that tips may have together.
+#: Largest share of the vertices in all tips together.
 FEW = 1e-2
 
 
 def are_tips(lost: NDArray[np.intp], faces: NDArray[np.int32]) -> bool:
     """Whether lost vertices are few, and all of them at ends of the surface.
 
-    Such an end, the tip of a tail or a tusk, follows the tets next to it. A lost part that joins
-    others, a thin bridge, does not count: its patch has neighbours on both sides.
+    Such an end, for example the tip of a tail or a tusk, follows the tets next to it. A lost part
+    that connects others, such as a thin bridge, does not count: its patch has neighbours on both
+    sides.
 
     Parameters
     ----------

@@ -15,8 +15,8 @@ from ..stuffing import Progress, stuff
 from .closed_input import ClosedInput, check_share, closed_input
 from .lost_tips import are_tips
 
-# Vertices of the surface farther than this from the tets, in edge lengths, are in a lost part, and
-# those of a lost tip may be so far away.
+# Vertices of the surface farther than this from the tets, in edge lengths, are in a lost part; the
+# second number is the limit for a lost tip.
 _LOST, _TIP = 1.0, 3.0
 # Factors of the edge length, tried in turn if parts are too thin.
 _SCALES = (1.0, 0.8, 0.6)
@@ -37,33 +37,33 @@ def stuff_surface(
     vertices : array_like, (s, 3)
         Points of the surface.
     faces : array_like of int, (f, 3)
-        Closed and oriented alike, outward or inward; without self-intersections.
+        Closed and consistently oriented, outward or inward; without self-intersections.
     edge_length : float, default 0.025
         Length of the longest edges inside, as a share of the diagonal of the surface's bounding
         box. If parts are too thin for that, 0.8 and 0.6 of it are tried.
     mend : bool, default False
-        Mend a surface that is not closed or not oriented alike, see `mend_surface`, with a
-        `MeshNotice` that says what was done. A surface that stays open is refused.
+        Mend a surface that is not closed or not consistently oriented, see `mend_surface`. A
+        `MeshNotice` says what was done. A surface that stays open is refused.
     progress : callable, optional
-        Called with "inside" and the numbers of points that are done and in all, then with
-        "boundary" and those of steps towards the surface; again where a shorter edge is tried.
+        Called with "inside" and two numbers of points, done and in all; then with "boundary" and
+        the numbers of steps towards the surface. Called again for each shorter edge that is tried.
 
     Returns
     -------
     TetMesh
-        Its boundary has its own vertices, which lie on the surface; sharp edges are cut off
-        within an edge length. If no edge tried reaches thin tips of the surface, with at most
-        one in a hundred of its vertices and up to three edge lengths long, the shortest one
-        that reaches the rest leaves them out, and a `MeshNotice` says so. Dihedral angles are
-        over 8 degrees. The same for the same input.
+        Its boundary has its own vertices, which lie on the surface; sharp edges are cut off within
+        an edge length. Thin tips that no tried edge length reaches are left out if they have at
+        most one in a hundred of the vertices and are up to three edge lengths long; the shortest
+        edge that reaches the rest is used, and a `MeshNotice` says so. Dihedral angles are over 8
+        degrees. The same input gives the same tets.
 
     Raises
     ------
     ValueError
         For wrong shapes or types, coordinates that are not finite, an index out of range, no faces,
-        a surface that is not closed, not oriented alike or encloses no volume, an edge length out
-        of range, or if a part of the surface other than a tip is lost, or touches another, because
-        it is too thin for the edge length; use `fill_surface` for such surfaces.
+        a surface that is not closed, not consistently oriented or encloses no volume, an edge
+        length out of range, or if parts or gaps are too thin for the edge length, so that a part
+        other than a tip is lost or touches another; use `fill_surface` for such surfaces.
 
     Notes
     -----

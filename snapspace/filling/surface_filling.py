@@ -1,4 +1,4 @@
-"""SurfaceFilling: quick tets, or those of fTetWild."""
+"""SurfaceFilling: quick tets, or tets by fTetWild."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ EXACTLY = "filling exactly"
 
 @dataclass(frozen=True, kw_only=True)
 class SurfaceFilling:
-    """Quick tets of one size in seconds, or those of fTetWild in up to some minutes.
+    """Quick tets of one size in seconds, or tets by fTetWild in up to some minutes.
 
     edge_length : edge length of the tets, as a share of the diagonal; None for the default of each
         method: 0.025, and 0.02 for fTetWild
@@ -31,9 +31,9 @@ class SurfaceFilling:
     def fill(self, vertices: ArrayLike, faces: ArrayLike, *, stage: Callable[..., None]) -> TetMesh:
         """Tets inside a surface, which is mended if it is not closed.
 
-        `stage` is called with "filling", "filling inside" and "filling boundary" with what is done
-        and all there is, and "filling exactly" before fTetWild, which takes up to some
-        minutes, and with each of its passes. ValueError as for `fill_surface`.
+        `stage` is called with "filling", with "filling inside" and "filling boundary" and the
+        numbers done and in all, and with "filling exactly" before fTetWild, which takes up to some
+        minutes, and at each of its passes. ValueError as for `fill_surface`.
         """
         sized = {} if self.edge_length is None else {"edge_length": self.edge_length}
         if not self.exact:

@@ -29,9 +29,9 @@ DEVIATION = 1e-3
 #: less than a thousandth of the diagonal of the whole figure.
 SHARE_OF_MOTION = 0.05
 #: Stiffness of the first stage, in units of 1 / diagonal (the material's mu is one). It bends the
-#: body, but hardly stretches it: this finds poses whose limbs turn by half a turn.
+#: body but hardly stretches it, and so finds poses whose limbs turn by 180 degrees.
 FIRST_STIFFNESS = 0.01
-#: Limit of the stretch of tets, and the limit for surfaces that cannot be reached within it.
+#: Limit on the stretch of tets, and the limit for surfaces that cannot be reached within it.
 STRETCHES = 10.0, 100.0
 
 
@@ -57,28 +57,28 @@ def fit_poses(
     surface : EmbeddedSurface
         Points of the surface in the tets: attributes `faces`, `corners` and `weights`.
     targets : array_like, (k, s, 3)
-        Point i of the surface belongs at point i of each target, up to a rigid motion of the
+        Point i of the surface should reach point i of each target, up to a rigid motion of the
         target. Targets may intersect themselves.
     deviation : float, default 1e-3
         Goal: root mean square distance between the surface and its target, relative to the diagonal
         of the rest shape. Surfaces that move little are fitted to 5 % of their motion instead.
     max_iterations : int, default 300
-        Most Newton steps per pose.
+        Largest number of Newton steps per pose.
     threads : int, optional
         Default: as many as the machine has. The result is bitwise the same for any number.
     progress : callable(done, total), optional
-        Called now and then from this thread, with numbers of poses.
+        Called from time to time from this thread, with numbers of poses.
     names : sequence of str, optional
         Names of the poses, for the reports. Default: their indices.
     on_finished : callable(index, shape, report), optional
-        Called from this thread for each pose, soon after it is finished; also on Ctrl-C, and again
-        for a pose whose call was interrupted.
+        Called from this thread for each pose soon after it is finished, also on Ctrl-C. Called
+        again for a pose if Ctrl-C interrupted its call.
 
     Returns
     -------
     PoseFits
-        Shapes in the frame of the rest shape, each with a report. None has inverted tets. Some may
-        not have converged: their surfaces do not reach the goal.
+        Shapes in the frame of the rest shape, each with a report. None has inverted tets. Shapes
+        that did not converge are included; their surfaces miss the goal.
 
     Raises
     ------
@@ -92,7 +92,7 @@ def fit_poses(
     -----
     Minimises the symmetric Dirichlet energy (Smith & Schaefer 2015), which resists inversion, plus
     stiffness * sum_i area_i |surface_i - target_i|^2. The stiffness is raised in stages until the
-    goal is met, and no further: tets with the least distortion make good rest shapes.
+    goal is met, and no further, since tets with little distortion make good rest shapes.
 
     The energy of a tet grows without bound towards |F|^2 + |F^-1|^2 - 6 = 100, so no stretch is
     above 10 or below 0.1. Where folds of a surface would stretch single tets forty times, the fit
@@ -109,7 +109,7 @@ def fit_poses(
         for index in sorted(set(fitted) - announced):
             if on_finished:
                 on_finished(index, *fitted[index])
-            announced.add(index)  # only now: Ctrl-C may interrupt the callback
+            announced.add(index)  # only now, since Ctrl-C may interrupt the callback
 
     def show(_: int) -> None:
         announce()
@@ -158,7 +158,7 @@ class _Fitting:
         wanted = registered_targets(target[None], self.rest, self.areas)[0] - self.rest
         goal = self.deviation * self.mesh.diagonal
         moved = float(np.sqrt(self.areas @ (wanted**2).sum(axis=1) / self.areas.sum()))
-        # a target may be the rest shape up to rounding, which is no motion
+        # a target may be the rest shape up to rounding, which does not count as motion
         share = max(SHARE_OF_MOTION * moved, 1e-6 * goal)
         for stretch in STRETCHES:
             u, report = self.system.fit(

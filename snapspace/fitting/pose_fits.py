@@ -18,7 +18,7 @@ class PoseFit:
     name : name of the pose
     rms, max : distance between the fitted surface and its target, relative to the diagonal of the
         rest shape's bounding box; rms is weighted by area
-    inverted_tets : number of tets with det F <= 0; zero, whatever the status
+    inverted_tets : number of tets with det F <= 0; zero for every status
     smallest_stretch, largest_stretch : extreme singular values of F over all tets
     stages : number of values of the surface stiffness that were tried
     iterations : Newton steps of all stages
@@ -40,7 +40,7 @@ class PoseFit:
 
     @property
     def converged(self) -> bool:
-        """Whether the surface came as close to its target as the goal asks."""
+        """Whether the surface met the goal."""
         return self.status == "converged"
 
     def summary(self) -> str:

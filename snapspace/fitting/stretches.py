@@ -1,4 +1,4 @@
-"""Stretches of tets: how far each tet is from a rigid motion of the rest shape."""
+"""Stretches of tets relative to the rest shape."""
 
 from __future__ import annotations
 

@@ -148,7 +148,7 @@ for name, moves in zip(KEYS, MOVES):
         key.value = 1.0
 active.data.update()
 '''
-#: The key of the shape that all others are added to, where that is not the shape at rest.
+#: The key of the base shape to which all others are added, if that is not the rest shape.
 MEAN = "Mean"
 #: Shapes that differ by less than this share of the diagonal are the same.
 _SAME = 1e-9
@@ -170,9 +170,9 @@ def write_blender(
         Ends in .py.
     model : PosingModel or InterpolationModel
     morphs : MorphTargets
-        Of `mode_targets` or `fitted_targets`.
+        From `mode_targets` or `fitted_targets`.
     name : str, optional
-        Of the object. Default: the file's name without its extension.
+        Name of the object. Default: the file's name without its extension.
     up : "x", "y" or "z", default the model's own
         Axis that points up.
 
@@ -180,8 +180,8 @@ def write_blender(
     -------
     Path
         The script. Keys are displacements from the rest shape, scaled so that the training samples
-        have values between -1 and 1; faces are those of the surface's file where it is known. Where
-        the base is another shape, as in most blends, the key Mean is it, with the value 1.
+        have values between -1 and 1. Faces are those of the surface's file, if it is known. If the
+        base is another shape, as in most blends, the key Mean has that shape and the value 1.
 
     Raises
     ------

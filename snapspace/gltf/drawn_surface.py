@@ -1,4 +1,4 @@
-"""DrawnSurface: the points and materials that glTF draws of a model's surface."""
+"""DrawnSurface: the points and materials of a model's surface as glTF draws it."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from ..mesh.surface_file.own_look import own_look
 
 @dataclass(frozen=True, eq=False)
 class DrawnSurface:
-    """What glTF draws of a surface.
+    """A surface as glTF draws it.
 
     points : each has one normal, texture coordinate and colour
     look : the user's own materials and colours; None if the file has none to show
-    normal : (r,), the normal of each point
+    normal : (r,), index of each point's normal
     normal_vertex : (g,), the surface's vertex of each normal; several at sharp edges
-    both_sides : whether the surface is open, so that both sides of it are seen
+    both_sides : whether the surface is open, so that both sides are visible
     """
 
     points: DrawnPoints
@@ -38,7 +38,7 @@ class DrawnSurface:
 
 
 def drawn_surface(surface: EmbeddedSurface) -> DrawnSurface:
-    """What glTF draws of a surface; warns of materials that are damaged or missing."""
+    """A surface as glTF draws it; warns of materials that are damaged or missing."""
     notes: list[str] = []
     source = surface.source
     look = None

@@ -18,7 +18,7 @@ _TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3"}
 class GlbFile:
     """Arrays of one binary buffer, and the JSON that describes them (glTF 2.0, sec. 4).
 
-    Bytes are the same for the same arrays and JSON.
+    The same arrays and JSON give the same bytes.
     """
 
     def __init__(self) -> None:
@@ -28,10 +28,10 @@ class GlbFile:
         self._size = 0
 
     def floats(self, values: NDArray[Any], *, vertices: bool, bounds: bool = False) -> int:
-        """Adds an array (k,), (k, 2) or (k, 3) in single precision; the number of its accessor.
+        """Adds an array (k,), (k, 2) or (k, 3) in single precision; returns its accessor's index.
 
-        vertices : whether it is an attribute of vertices
-        bounds : adds the least and greatest values, as positions and times need them
+        vertices : whether the array is an attribute of vertices
+        bounds : adds the smallest and largest values, as positions and times need
         """
         array = np.ascontiguousarray(values, np.float32)
         about: dict[str, Any] = {}
@@ -41,7 +41,7 @@ class GlbFile:
         return self._add(array, FLOAT, ARRAY_BUFFER if vertices else None, about)
 
     def indices(self, faces: NDArray[Any]) -> int:
-        """Adds faces (f, 3) as one row of indices; the number of its accessor."""
+        """Adds faces (f, 3) as one row of indices; returns its accessor's index."""
         return self._add(
             np.ascontiguousarray(faces, np.uint32).reshape(-1),
             UNSIGNED_INT,
@@ -50,7 +50,7 @@ class GlbFile:
         )
 
     def picture(self, data: bytes) -> int:
-        """Adds the bytes of a PNG or JPEG file; the number of its buffer view."""
+        """Adds the bytes of a PNG or JPEG file; returns the index of its buffer view."""
         return self._view(data + b"\0" * (-len(data) % 4), {"byteLength": len(data)})
 
     def file_bytes(self, content: dict[str, Any]) -> bytes:
@@ -87,7 +87,7 @@ class GlbFile:
         return len(self._accessors) - 1
 
     def _view(self, data: bytes, about: dict[str, Any]) -> int:
-        """Adds bytes, a multiple of four so that all views are aligned; the number of the view."""
+        """Adds bytes, a multiple of four for alignment; returns the view's index."""
         self._views.append({"buffer": 0, "byteOffset": self._size, **about})
         self._parts.append(data)
         self._size += len(data)

@@ -10,7 +10,7 @@ from .glb_file import GlbFile
 
 Color = tuple[float, float, float]
 _CLAY, _WHITE = (0.72, 0.63, 0.53), (1.0, 1.0, 1.0)
-#: The first bytes of the pictures that glTF knows.
+#: The first bytes of the image formats that glTF supports.
 _KINDS = {b"\x89PNG": "image/png", b"\xff\xd8\xff": "image/jpeg"}
 
 
@@ -23,7 +23,7 @@ def plain_material(*, painted: bool, both_sides: bool) -> dict[str, Any]:
 def own_materials(file: GlbFile, look: Appearance, *, both_sides: bool) -> dict[str, Any]:
     """The entries of the user's materials, and of their base-colour textures.
 
-    Warns of pictures that are neither PNG nor JPEG, which glTF does not have.
+    Warns of images that are neither PNG nor JPEG, which glTF does not support.
     """
     pictures: dict[int, int] = {}
     images: list[dict[str, Any]] = []

@@ -18,7 +18,7 @@ def glb_mesh(
 ) -> dict[str, Any]:
     """The entry of a mesh whose primitives share their points and morph targets.
 
-    colors : (s, 3), sRGB of the surface's vertices, which all have one material then; None for the
+    colors : (s, 3), sRGB of the surface's vertices, which then share one material; None for the
     user's own materials and colours
     """
     drawn, points = morphs.drawn, morphs.drawn.points
@@ -60,6 +60,6 @@ def glb_mesh(
 
 
 def _linear(colors: FloatArray) -> FloatArray:
-    """Colours of glTF's vertices are linear; these are sRGB (IEC 61966-2-1)."""
+    """Linear colours, as glTF needs for vertices, from sRGB (IEC 61966-2-1)."""
     steep = np.clip((colors + 0.055) / 1.055, 0.0, 1.0) ** 2.4
     return np.where(colors <= 0.04045, colors / 12.92, steep)

@@ -26,8 +26,8 @@ class MorphTargets:
     user's file; normal_targets : (m, g, 3) their changes, which are exact to first order only:
     viewers add them up and normalise
     weights : (k, m) weights of k shapes
-    error : largest distance of a vertex of these shapes from where the targets put it, in the
-    mesh's length unit; zero where they are exact
+    error : largest distance between a vertex of these shapes and its position by the targets, in
+    the mesh's length unit; zero if the targets are exact
     drawn : the points, normals and materials of the surface
     """
 
@@ -51,8 +51,8 @@ def mode_targets(model: ReducedModel, shapes: ArrayLike | None = None) -> MorphT
 
     Notes
     -----
-    Changes of the normals are those that fit the training samples best, or the given shapes if
-    there are more of them.
+    Changes of the normals are fitted to the training samples, or to the given shapes if there are
+    more of them.
     """
     check_model(model, "mode_targets")
     surface, subspace = model.surface, model.subspace
@@ -75,7 +75,7 @@ def mode_targets(model: ReducedModel, shapes: ArrayLike | None = None) -> MorphT
 
 
 def fitted_targets(model: ReducedModel, shapes: ArrayLike, *, count: int = 8) -> MorphTargets:
-    """The best few targets for given shapes: the least squared distance of all vertices.
+    """The best few targets for given shapes, by the least squares of all vertices.
 
     Parameters
     ----------
@@ -83,12 +83,12 @@ def fitted_targets(model: ReducedModel, shapes: ArrayLike, *, count: int = 8) ->
     shapes : array_like, (k, n, 3)
         Vertices of the shapes, such as the frames of a path.
     count : int, default 8
-        Largest number of targets; many engines draw no more than eight.
+        Largest number of targets; many engines support only eight.
 
     Returns
     -------
     MorphTargets
-        With the shape tau as the base. There are fewer targets where fewer are exact.
+        Targets with the shape tau as the base; fewer than `count` if fewer are exact.
 
     Raises
     ------
@@ -132,7 +132,7 @@ def unit_normals(vertices: FloatArray, faces: NDArray[np.int32]) -> FloatArray:
 
 
 def _given(shapes: ArrayLike, who: str) -> FloatArray:
-    """Shapes (k, n, 3) or (k, 3n); ValueError for a single one, or what are no numbers."""
+    """Shapes (k, n, 3) or (k, 3n); ValueError for a single one, or for anything but numbers."""
     given = as_numbers(who, "shapes", shapes)
     if given.ndim not in (2, 3):
         raise ValueError(f"{who}: shapes have shape {given.shape}, but must be (k, n, 3)")
@@ -160,7 +160,7 @@ def _leading(rows: FloatArray, count: int) -> tuple[FloatArray, FloatArray]:
 def _normals(
     base: FloatArray, targets: FloatArray, weights: FloatArray, drawn: DrawnSurface
 ) -> tuple[FloatArray, FloatArray]:
-    """Normals of the base, and their changes by target, fitted to the shapes of some weights."""
+    """Normals of the base and their changes per target, fitted to the shapes of some weights."""
     vertex, faces = drawn.normal_vertex, drawn.normal_faces
     normals = unit_normals(base[vertex], faces)
     if len(weights) == 0:

@@ -11,14 +11,14 @@ from ..reduction import ReducedModel
 from .morph_targets import MorphTargets, fitted_targets
 
 FloatArray = NDArray[np.float64]
-#: A weight that is below zero by less than this share of its target's largest one is zero.
+#: A negative weight of a size below this share of its target's largest one counts as zero.
 _NOTHING = 1e-9
 
 
 def sliders(weights: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Weights between 0 and 1, and the targets that they are for.
+    """Weights between 0 and 1, and their targets.
 
-    Blender gives the keys that it imports this range, and clamps others, as some engines do.
+    Blender gives imported keys this range and clamps other values, as some engines do.
 
     Parameters
     ----------
@@ -28,11 +28,11 @@ def sliders(weights: FloatArray) -> tuple[FloatArray, FloatArray]:
     Returns
     -------
     mix : (m, m), or (m + 1, m)
-        The new targets as sums of the old ones. Where weights are negative there is one more at the
-        end, the sum of all lower ends.
+        The new targets as sums of the old ones. If weights are negative, there is one more at the
+        end, the sum of all lower bounds.
     values : (k, m), or (k, m + 1)
-        The weights of the new targets, with values @ mix = weights. That of the last one is 1 in
-        all shapes.
+        The weights of the new targets, with values @ mix = weights. The weight of the additional
+        target is 1 in all shapes.
     """
     low = weights.min(axis=0, initial=0.0)
     low[-low <= _NOTHING * np.abs(weights).max(axis=0, initial=0.0)] = 0.0

@@ -22,8 +22,8 @@ from .sliders import with_sliders
 FloatArray = NDArray[np.float64]
 #: Quaternions x, y, z, w that turn an axis to y, which is up in glTF.
 _HALF = float(np.sqrt(0.5))
-#: Diagonals from the origin beyond which points are written relative to the node: in single
-#: precision they would lose a thousandth of a percent.
+#: Distance from the origin, in diagonals, beyond which points are written relative to the node: in
+#: single precision they would be rounded by 0.001 %.
 _FAR = 100.0
 _TO_Y = {"x": (0.0, 0.0, _HALF, _HALF), "y": None, "z": (-_HALF, 0.0, 0.0, _HALF)}
 
@@ -45,27 +45,27 @@ def write_glb(
     path : path
         Ends in .glb. An existing file is replaced once the new one is complete.
     model : ReducedModel
-        Its surface has the faces, and the texture coordinates, materials, base-colour textures,
-        colours and sharp edges of the user's own file, if it is of one.
+        Its surface gives the faces. If it comes from the user's own file, it also gives texture
+        coordinates, materials, base-colour textures, colours and sharp edges.
     morphs : MorphTargets
         From `mode_targets` or `fitted_targets`. With two or more rows of weights these are the
         frames of an animation, written as weights between 0 and 1, which Blender and engines do not
         clamp; that may take one more target. One row is the initial state.
     name : str, optional
-        Of mesh and node. Default: the file's name without its extension.
+        Name of the mesh and the node. Default: the file's name without its extension.
     up : "x", "y" or "z", default that of the model
         The axis that points up; a rotation of the node turns it to glTF's y. Numbers stay in the
         model's length unit. A body far from the origin for its size is moved there, and back by a
         translation of the node: points are in single precision.
     frames_per_second : float, default 30
     colors : ndarray, (s, 3), optional
-        Colours of the vertices, sRGB in [0, 1], in place of the user's own materials. Default:
-        these materials, or one like clay.
+        Colours of the vertices, sRGB in [0, 1], instead of the user's own materials. Default: these
+        materials, or one like clay.
 
     Returns
     -------
     Path
-        The file; its bytes are the same for the same input.
+        The file; the same input gives the same bytes.
 
     Raises
     ------
@@ -76,7 +76,7 @@ def write_glb(
     Warns
     -----
     MeshNotice
-        Of materials and textures that are missing or damaged, or are no PNG or JPEG.
+        For materials and textures that are missing or damaged, or not PNG or JPEG.
     """
     check_model(model, "write_glb", "give path, model, morphs")
     target = as_path("write_glb", path)

@@ -20,8 +20,8 @@ def batch_checkpoint(
 ) -> Checkpoint | None:
     """The checkpoint of the batch that begins with sample `begin`; None if the run has none.
 
-    Its name has the key of the batch. So a batch that was chosen differently, for instance on
-    another processor, does not use its samples.
+    The folder's name contains a key of the batch. So a batch that was chosen differently, for
+    instance on another processor, does not use these samples.
     """
     if whole is None:
         return None
@@ -32,10 +32,10 @@ def batch_checkpoint(
 def greedy_key(
     problem: Problem, options: SolverOptions, *, seed: int, batch: int, candidates: int
 ) -> str:
-    """Hash of all that the choice of samples depends on, 16 hex digits.
+    """Hash of everything that the choice of samples depends on, 16 hex digits.
 
-    The number of samples and the target are not in it: a run for more samples continues from the
-    batches of a shorter one.
+    The number of samples and the target are not part of the hash, so a run for more samples
+    continues from the batches of a shorter one.
     """
     choice = {"seed": seed, "batch": batch, "candidates": candidates}
     solver = solver_key(options, problem)

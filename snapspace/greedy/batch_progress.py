@@ -19,8 +19,8 @@ class BatchProgress:
 
     Attributes
     ----------
-    held_out_error : error of the last finished batch, given those before; the run of a batch does
-        not know the other batches
+    held_out_error : error of the last finished batch by the batches before it; the run of a batch
+    does not know the other batches
     """
 
     def __init__(self, progress: Progress, total: int) -> None:
@@ -36,7 +36,7 @@ class BatchProgress:
         self._report(self._done + state.done, self._solved + state.solved)
 
     def finish_batch(self, held_out_error: float | None) -> None:
-        """Counts what the batch's run reported last, and reports the error known by now."""
+        """Adds the last report of the batch's run, and reports the error known so far."""
         if self._last is not None:
             self._done += self._last.done
             self._solved += self._last.solved

@@ -14,12 +14,12 @@ from ..reduction import ReducedModel, reduced_solutions
 
 FloatArray = NDArray[np.float64]
 
-#: Steps of the full solver. On 92 unseen samples of the Dragon at d = 20 the rank correlation of
-#: the estimates' M-norms with the true errors is 0.59 after one step, 0.83 after five, and 0.93
-#: after twenty; that of the residual in the norm of the inverse factor is 0.57. Five steps take an
-#: eighth of a solve.
+#: Steps of the full solver. On 92 unseen samples of the Dragon at d = 20, the M-norms of the
+#: estimates have a rank correlation with the true errors of 0.59 after one step, 0.83 after five,
+#: and 0.93 after twenty. For the residual in the norm of the inverse factor it is 0.57. Five steps
+#: take an eighth of a solve.
 STEPS = 5
-#: A tolerance that no solve reaches: no sample ends before its last step.
+#: A tolerance that no solve reaches, so that no sample ends before its last step.
 _NEVER = 1e-300
 
 
@@ -33,10 +33,10 @@ def estimated_errors(
 ) -> FloatArray:
     """The change that the full solver makes in its first steps from the model's solutions.
 
-    The first step follows the residual, preconditioned by the scalar factor. It shows how strong
-    the forces on the solution are, mostly in stiff directions, but not how far it will move: errors
-    lie in soft directions. After some steps L-BFGS has found the soft directions, and the change is
-    a good part of the error itself.
+    The first step follows the residual, preconditioned by the scalar factor. It shows how large the
+    forces on the solution are, mostly in stiff directions, but not how far the solution will move:
+    errors lie in soft directions. After some steps L-BFGS has found the soft directions, and the
+    change is a large part of the error itself.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def estimated_errors(
     errors = np.zeros(starts.shape)
     for error, shape, start in zip(errors, ends, starts, strict=True):
         if np.isfinite(shape).all():
-            # one by one: more of them together may round differently
+            # one by one, since a product of several may round differently
             error[:] = (problem.registered(shape[None]) - problem.registered(start[None]))[0]
     return errors
 

@@ -52,10 +52,10 @@ def greedy_snapshots(
 
     The first batch is the beginning of a scrambled Sobol sequence. For each later batch a reduced
     model with d <= 20 is made, and solved at the next `candidates * batch` points of the sequence.
-    The batch takes the points whose `estimated_errors` are large and differ from each other, see
-    `largest_pivots`. If the model needs a cubature and there are fewer than ten samples to train
-    it on, the batch takes the first points. This is the greedy method of reduced bases (Veroy,
-    Prud'homme, Rovas & Patera 2003) with another indicator, and in batches.
+    The batch consists of the points whose `estimated_errors` are large and differ from each other,
+    see `largest_pivots`. If the model needs a cubature and there are fewer than ten samples to
+    train it on, the batch consists of the first points. This is the greedy method of reduced bases
+    (Veroy, Prud'homme, Rovas & Patera 2003) with a different indicator, and in batches.
 
     Parameters
     ----------
@@ -64,16 +64,16 @@ def greedy_snapshots(
     count : int
         Largest number of samples to solve.
     target : float, optional
-        Ends after the first batch whose median held-out error is below this. It is the relative
-        error in the M-norm of projections onto the best subspace of the earlier samples. Tight
-        solutions at unseen parameters have larger errors: new samples start from blends of earlier
-        ones, and stay near them.
+        The run ends after the first batch whose median held-out error is below this. That error is
+        the relative error, in the M-norm, of projections onto the best subspace of the earlier
+        samples. Tight solutions at unseen parameters have larger errors, since new samples start
+        from blends of earlier ones and stay near them.
     dimension : int, default 40
         Dimension of that subspace, which limits the error that can be reached.
     batch : int, default 32
         Number of samples per batch.
     candidates : int, default 3
-        Number of points that each sample is chosen from. With 1 the sequence is taken as it is,
+        Number of points that each sample is chosen from. With 1 the sequence is used as it is,
         without a model: Sobol sampling that ends at the target.
     seed : int, default 0
         Seed of the sequence.
@@ -88,7 +88,8 @@ def greedy_snapshots(
     -------
     Snapshots
         The samples in the order of choice, without the known ones; all parameters differ. The same
-        arguments give the same bits for any number of threads, executor or interruption.
+        arguments give bitwise the same samples for any number of threads, with any executor, and
+        after interruptions.
 
     Raises
     ------
@@ -100,9 +101,10 @@ def greedy_snapshots(
 
     Notes
     -----
-    For the same number of samples the result is a few percent better or worse than the sequence
-    itself, and for the same time it is worse, see docs/notes/sampling.md. PCA minimises a mean over
-    the samples, so samples spread over the whole domain are best for the mean over the domain.
+    For the same number of samples the result is a few percent better or worse than that of the
+    Sobol sequence, and for the same time it is worse, see docs/notes/sampling.md. PCA minimises a
+    mean over the samples, so samples that are spread over the whole domain are best for the mean
+    over the domain.
     """
     require_problem(problem, "greedy_snapshots")
     _check(problem, known, count=count, dimension=dimension, batch=batch, candidates=candidates)
@@ -150,7 +152,7 @@ def _check(
 
 
 def _sizes(count: int, batch: int, candidates: int, *, chosen: bool) -> list[int]:
-    """How many points of the sequence each batch chooses from; the first may take all."""
+    """How many points of the sequence each batch chooses from; the first batch may use all."""
     batches = -(-count // batch)
     return [batch if k == 0 and not chosen else candidates * batch for k in range(batches)]
 

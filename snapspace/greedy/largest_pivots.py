@@ -9,7 +9,7 @@ FloatArray = NDArray[np.float64]
 
 
 def largest_pivots(gram: FloatArray, count: int) -> list[int]:
-    """Repeatedly chooses the vector with the longest part outside the span of those chosen.
+    """Repeatedly chooses the vector with the longest part outside the span of the chosen ones.
 
     These are the pivots of the Cholesky factorisation with complete pivoting (Higham 2002, Accuracy
     and Stability of Numerical Algorithms, sec. 10.3), or of QR with column pivoting on the vectors.
@@ -26,7 +26,7 @@ def largest_pivots(gram: FloatArray, count: int) -> list[int]:
     -------
     list of int
         Distinct indices in the order of choice; a longer list begins with the shorter one. Among
-        equals, and when only rounding is left, smaller indices come first.
+        equals, and when only rounding errors are left, smaller indices come first.
     """
     left = gram.copy()
     noise = len(gram) * np.finfo(float).eps * max(float(np.diag(gram).max(initial=0.0)), 0.0)

@@ -13,11 +13,11 @@ from ..subspace import snapshot_pca
 
 FloatArray = NDArray[np.float64]
 
-#: Dimension of the models that choose samples. Coefficients cost d^4: on the Dragon with d = 20, as
-#: much as a dozen samples.
+#: Dimension of the models that choose samples. Computing coefficients costs d^4: on the Dragon with
+#: d = 20, as much as a dozen samples.
 MODEL_DIMENSION = 20
-#: Eigenvalues of the Gram matrix below this share of the largest do not count as directions: a path
-#: between two poses has only a few.
+#: Eigenvalues of the Gram matrix below this share of the largest do not count as directions, since
+#: a path between two poses has only a few.
 _NEGLIGIBLE = 1e-8
 
 
@@ -90,7 +90,7 @@ class SolvedSoFar:
         self._errors.add(list(batch.displacements))
 
     def _directions(self) -> int:
-        """How many directions of the usable samples are more than negligible."""
+        """Number of directions of the usable samples that are not negligible."""
         usable = np.flatnonzero(self.all.usable)
         eigenvalues = np.linalg.eigvalsh(self._errors.gram.matrix[np.ix_(usable, usable)])
         return int((eigenvalues > _NEGLIGIBLE * eigenvalues.max(initial=0.0)).sum())

@@ -12,9 +12,10 @@ from .shear_material import ShearMaterial
 
 #: Radius of the stars of posed surfaces whose material is not named.
 SURFACE_RADIUS = 0.02
-#: The same of blended surfaces: the least with which all paths between poses were continuous and
-#: the same both ways on the sets that chose it, see docs/notes/surface-blends.md. Smaller stars
-#: have two minima where a part turns by half a turn from pose to pose.
+#: The same for blended surfaces: the smallest radius with which all paths between poses were
+#: continuous, and the same in both directions, on the sets that it was chosen on, see
+#: docs/notes/surface-blends.md. Smaller stars have two minima where a part turns by 180 degrees
+#: between poses.
 BLEND_RADIUS = 0.05
 
 
@@ -29,18 +30,19 @@ class ARAP(ShearMaterial):
     ----------
     mu : as for `ShearMaterial`
     radius : float, default 0
-        Of surfaces only: the neighbourhoods that share a rotation have centers so far apart along
-        the surface, relative to the diagonal. They overlap as hat functions do. So a surface
-        resists bending by this radius, however fine its mesh is. Where edges are longer, and
-        everywhere with 0, the neighbourhoods are those of all vertices, with the triangles around
-        each: spokes and rims (Sorkine, Alexa 2007). Larger ones are like the rotation clusters of
-        Jacobson, Baran, Kavan, Popovic, Sorkine 2012. Parts smaller than twice the radius are
-        blended linearly. Where no material is named, posed surfaces have 0.02, blended ones 0.05.
+        For surfaces only: distance along the surface, relative to the diagonal, between the centers
+        of neighbourhoods that share a rotation. Neighbourhoods overlap like hat functions. So a
+        surface resists bending by this radius, however fine its mesh is. Where edges are longer,
+        and everywhere with 0, there is one neighbourhood per vertex, with the triangles around it:
+        spokes and rims (Sorkine, Alexa 2007). Larger neighbourhoods are like the rotation clusters
+        of Jacobson, Baran, Kavan, Popovic, Sorkine 2012. Parts smaller than twice the radius are
+        blended linearly. Without a given material, the radius is 0.02 for posed surfaces and 0.05
+        for blended ones.
 
     Raises
     ------
     ValueError
-        As for `ShearMaterial`; for a radius that is not from 0 to 1.
+        As for `ShearMaterial`; for a radius that is not between 0 and 1.
     """
 
     kind: ClassVar[str] = "arap"

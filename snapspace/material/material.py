@@ -19,7 +19,7 @@ FloatArray = NDArray[np.float64]
 #: A number that holds in all tets, or one number per tet, (m,).
 Modulus = float | FloatArray
 Own = TypeVar("Own", bound="Material")
-#: Metadata of a field that is not a modulus: one number of the whole body.
+#: Metadata of a field that is not a modulus: one number for the whole body.
 SETTING = {"setting": True}
 
 
@@ -29,14 +29,15 @@ class Material(ABC):
     A subclass is a frozen dataclass. Its fields are the moduli, in the same order as in
     core/material; each is a number, or an array (m,) with one number per tet. Moduli are energies
     per rest volume, and the density is linear in them. Fields with the metadata `SETTING` are
-    numbers that no density knows.
+    numbers that the density does not depend on.
 
     Attributes
     ----------
     kind : name in files, on the command line and in the core
     title : name for people
     exact_degree : degree of the density as a polynomial of F, if it is one; else None
-    barrier : whether inverted tets have infinite energy, so that solves must start without any
+    barrier : whether inverted tets have infinite energy, so that solves must start without inverted
+    tets
     collapses : whether blends of poses collapse to nine numbers per tet, as the core's `Blend` does
     lam, mu : Lame parameters of small strains; every material has them, as fields or properties
     """
@@ -75,7 +76,7 @@ class Material(ABC):
 
     @property
     def settings(self) -> dict[str, float]:
-        """The fields that are not moduli, by name, where they are not the default."""
+        """The fields that are not moduli, by name, if they differ from the default."""
         given = {name: getattr(self, name) for name in self.setting_names()}
         return {name: x for name, x in given.items() if x != getattr(type(self), name)}
 
@@ -129,7 +130,7 @@ class Material(ABC):
 
     @cached_property
     def key(self) -> list[str]:
-        """Everything that solutions depend on: the kind, a hash of the moduli, and settings."""
+        """Everything that solutions depend on: the kind, a hash of the moduli, and the settings."""
         moduli = hashlib.sha256(self.moduli.astype("<f8").tobytes()).hexdigest()
         return [self.kind, moduli, *(f"{name} {x!r}" for name, x in self.settings.items())]
 

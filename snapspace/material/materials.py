@@ -19,7 +19,7 @@ MATERIALS: dict[str, type[Material]] = {
     for material in (StableNeoHookean, Corotational, ARAP, StVK, SymmetricDirichlet, MooneyRivlin)
 }
 
-#: What a solid is made of where the user names no material.
+#: The material of a solid if the user names none.
 DEFAULT_MATERIAL = StableNeoHookean
 
 
@@ -31,7 +31,7 @@ def material_class(kind: str) -> type[Material]:
 
 
 def default_material(*, surface: bool, blended: bool = False) -> Material:
-    """What a body, posed or blended, is made of where the user names no material."""
+    """The material of a posed or blended body if the user names none."""
     if not surface:
         return DEFAULT_MATERIAL()
     return ARAP(radius=BLEND_RADIUS if blended else SURFACE_RADIUS)

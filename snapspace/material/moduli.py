@@ -66,7 +66,7 @@ def _numbers(value: ArrayLike, who: str, name: str) -> FloatArray:
 
 
 def _first(array: FloatArray, wrong: NDArray[np.bool_]) -> tuple[str, float]:
-    """The place of the first wrong entry, and the entry."""
+    """The text for the place of the first wrong entry, and the entry."""
     if array.ndim == 0:
         return "", float(array)
     place = int(np.flatnonzero(wrong)[0])

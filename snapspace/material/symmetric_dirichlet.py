@@ -13,7 +13,7 @@ class SymmetricDirichlet(ShearMaterial):
     """Symmetric Dirichlet: mu (|F|^2 + |F^-1|^2 - 6) / 4, infinite where det F <= 0.
 
     After Smith & Schaefer 2015, "Bijective Parameterization with Free Boundaries". Poses are fitted
-    to surfaces with it, because no tet can invert.
+    to surfaces with this energy, because it prevents inversion.
 
     Parameters and errors as for `ShearMaterial`.
     """

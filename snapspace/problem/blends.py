@@ -1,4 +1,4 @@
-"""Blends of two, three and all corners of a simplex, in an order that suits many poses."""
+"""Blends of two, three and all corners of a simplex, in an order for many poses."""
 
 from __future__ import annotations
 
@@ -12,8 +12,7 @@ FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 # Shares of pairs, triples and interior points: until every pair has had a point, and afterwards.
-# They were chosen on three generated sets of poses and tested on others, see
-# docs/notes/sampling.md.
+# Chosen on three generated sets of poses and tested on others, see docs/notes/sampling.md.
 _FIRST_SWEEP = (0.9, 0.0, 0.1)
 _AFTERWARDS = (0.2, 0.3, 0.5)
 _PAIR, _TRIPLE, _INSIDE = range(3)
@@ -22,21 +21,21 @@ _PAIR, _TRIPLE, _INSIDE = range(3)
 def blend_weights(inside: FloatArray, *, lowest: float, order: IntArray) -> FloatArray:
     """Weights in an order in which the first samples, however many, are a sensible set.
 
-    First come the middles of all pairs, with one interior point in ten samples. Then two in ten
-    are further points of pairs, three are points of triples, and five are interior points. A pair
-    gets its next point after all other pairs had theirs, and so do triples: pairs at 1/2, 1/4, 3/4,
-    1/8, ... (van der Corput 1935), triples at the middle, nearer to each corner, ... (Basu & Owen
-    2015).
+    First come the midpoints of all pairs, with one interior point in ten samples. Then, out of ten
+    samples, two are further points of pairs, three are points of triples, and five are interior
+    points. A pair gets its next point after all other pairs have had theirs, and so does a triple.
+    Points of pairs are at 1/2, 1/4, 3/4, 1/8, ... (van der Corput 1935). Those of triples are first
+    at the middle, then nearer to each corner, and so on (Basu & Owen 2015).
 
     Parameters
     ----------
     inside : ndarray, (k, corners)
         Points of the whole domain; the interior points are the first of these.
     lowest : float
-        Least weight of the domain, zero or negative. Pairs and triples are enlarged so that their
-        weights go down to it, while all others stay zero.
+        Smallest weight of the domain, zero or negative. Pairs and triples are enlarged so that
+        their weights reach down to it, while all others stay zero.
     order : ndarray of int, (corners,)
-        A permutation of the corners, which decides which are paired first.
+        A permutation of the corners, which determines the pairs that come first.
 
     Returns
     -------
@@ -52,7 +51,7 @@ def blend_weights(inside: FloatArray, *, lowest: float, order: IntArray) -> Floa
         if kind == _INSIDE:
             row[:] = inside[number]
             continue
-        # if the triples were cut off, they are as many as the samples: one sweep at most
+        # if the list of triples was cut off, it has as many triples as samples: one sweep at most
         sweep, place = divmod(number, len(sets[kind]))
         chosen = sets[kind][place]
         row[chosen] = lowest + (1.0 - len(chosen) * lowest) * points[kind](sweep)
@@ -88,8 +87,8 @@ def _on_edge(number: int) -> FloatArray:
 def _in_triangle(number: int) -> FloatArray:
     """Weights (3,) of a point of the triangular van der Corput sequence (Basu & Owen 2015).
 
-    A triangle is cut into four by the middles of its sides. Each digit in base four chooses one,
-    the inner one or that at a corner, and the point is the middle of the last.
+    The midpoints of a triangle's sides split it into four triangles. Each digit in base four
+    selects one of them, the inner one or one at a corner, and the point is the centre of the last.
     """
     triangle = np.eye(3)
     digits = number

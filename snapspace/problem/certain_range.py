@@ -12,14 +12,15 @@ FloatArray = NDArray[np.float64]
 
 
 class CertainRange:
-    """Weights, also below zero and above one, for which the blended energy certainly has a minimum.
+    """Weights, even negative or above one, for which the blended energy certainly has a minimum.
 
     The blended energy of a collapsing density (stable neo-Hookean) is, in each tet,
     tr(F M F^T) / 2 + alpha/2 J^2 - beta J + const, and M and alpha are linear in the weights
-    (docs/materials.md). With M positive definite and alpha > 0 in all tets it grows in every
-    direction, and so the sum has a minimum. Such weights form a convex set that contains the whole
-    simplex. The condition is sufficient, not necessary: one bad tet ends the range, while the sum
-    over all tets may have a minimum farther out. Nor does it imply that the minimum is unique.
+    (docs/materials.md). If M is positive definite and alpha > 0 in all tets, the energy grows in
+    every direction and therefore has a minimum. Such weights form a convex set that contains the
+    whole simplex. The condition is sufficient, not necessary: one bad tet ends the range, while the
+    sum over all tets may have a minimum farther out. The condition does not imply that the minimum
+    is unique.
 
     Parameters
     ----------
@@ -46,7 +47,8 @@ class CertainRange:
     def of_forms(cls, forms: FloatArray) -> CertainRange:
         """The range in which weighted sums of quadratic forms are positive definite.
 
-        For energies that are such a form and less than it far away, as those of `ARAP` are.
+        For energies that differ from such a form by a term of slower growth, such as those of
+        `ARAP`.
 
         Parameters
         ----------
@@ -70,10 +72,10 @@ class CertainRange:
         return self._domain.corners
 
     def margin(self, weights: ArrayLike) -> float:
-        """The least eigenvalue of M or alpha over all tets, for weights (poses,).
+        """The smallest of alpha and the eigenvalues of M over all tets, for weights (poses,).
 
-        It is relative to equal weights: one there, zero on the boundary of the range, negative
-        beyond, and concave in the weights.
+        It is relative to equal weights: one there, zero on the boundary of the range, and negative
+        beyond. It is concave in the weights.
 
         Raises
         ------
@@ -97,9 +99,9 @@ class CertainRange:
         Parameters
         ----------
         toward : array_like, (poses,)
-            Weights that the line leads to.
+            Weights at the end of the line.
         start : array_like, (poses,), optional
-            Weights that it begins at. Default: equal weights.
+            Weights at the start of the line. Default: equal weights.
 
         Returns
         -------
@@ -119,7 +121,7 @@ class CertainRange:
         length = float(np.abs(step).max())
         if length == 0.0:
             return np.inf
-        # 1 + t e vanishes first for the least eigenvalue e of the step relative to the start
+        # 1 + t e vanishes first for the smallest eigenvalue e of the step relative to the start
         factors = np.linalg.inv(np.linalg.cholesky(_sum(begin, self._squares)))
         moved = factors @ _sum(step / length, self._squares) @ factors.swapaxes(-1, -2)
         alphas = _sum(step / length, self._alphas) / _sum(begin, self._alphas)
@@ -128,12 +130,13 @@ class CertainRange:
         return -1.0 / steepest / length if steepest < -1e-12 else np.inf
 
     def limits(self) -> FloatArray:
-        """The least and the greatest weight of each pose while the others share the rest evenly.
+        """The smallest and the largest weight of each pose while the others share the rest equally.
 
         Returns
         -------
         ndarray, (poses, 2) float64
-            The least is negative and the greatest above one; infinite where the range does not end.
+            The smallest is negative and the largest above one. They are infinite where the range
+            does not end.
         """
         center, limits = self._domain.center, np.empty((self.poses, 2))
         for pose, alone in enumerate(np.eye(self.poses)):

@@ -31,9 +31,9 @@ def pairs_in_rounds(corners: int) -> IntArray:
 def triples_in_circles(corners: int, *, at_most: int) -> IntArray:
     """The first triples of 0 ... corners - 1, (k, 3), circle by circle, k <= C(corners, 3).
 
-    A circle turns one triple through all hours of a clock whose hours are the corners, so that it
-    contains each corner equally often. Wide triples, whose corners are spread around the clock,
-    come first. There can be very many triples: a thousand corners have 166 million.
+    Place the corners like the hours of a clock. A circle is the set of all rotations of one triple,
+    so it contains each corner equally often. Wide triples, whose corners are spread around the
+    clock, come first. The number of triples can be large: a thousand corners have 166 million.
     """
     gaps = {
         min((a, b, c), (b, c, a), (c, a, b))

@@ -23,10 +23,10 @@ _EXAMPLES = {
 
 
 def check_entries(content: dict[str, Any]) -> None:
-    """ValueError for what is wrong in a problem of a solid whatever its mesh is.
+    """ValueError for mistakes in a problem of a solid that do not depend on its mesh.
 
-    Filling a surface may take minutes: mistakes come first. Places without vertices, indices out of
-    range, and lists with one value per tet are checked once there is a mesh.
+    Filling a surface may take minutes, so mistakes are found before it. Places without vertices,
+    indices out of range, and lists with one value per tet are checked once there is a mesh.
     """
     check_look(content)
     check_handles(entry(content, "handles"))
@@ -48,7 +48,7 @@ def check_look(content: dict[str, Any]) -> None:
 
 
 def entry(content: dict[str, Any], key: str) -> Any:
-    """An entry that must be there; ValueError if it is not, with an example."""
+    """A required entry; ValueError, with an example, if it is missing."""
     if key not in content:
         example = f"; add {_EXAMPLES[key]}" if key in _EXAMPLES else ""
         raise ValueError(f"the entry '{key}' is missing{example}")
@@ -56,7 +56,7 @@ def entry(content: dict[str, Any], key: str) -> Any:
 
 
 def _check_material(content: dict[str, Any]) -> None:
-    """Without its regions, and as the material of a single tet."""
+    """Checks the material without its regions, as that of a single tet."""
     if any(isinstance(value, list) for key, value in content.items() if key != "regions"):
         return
     tet = TetMesh(np.vstack([np.zeros(3), np.eye(3)]), [[0, 1, 2, 3]])

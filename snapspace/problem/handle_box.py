@@ -20,7 +20,7 @@ Bounds = float | Vector | Sequence[Vector] | FloatArray
 
 @dataclass(frozen=True, kw_only=True)
 class HandleBox:
-    """Translations and Euler angles of the moving handles up to given bounds (paper, sec. 4.1).
+    """Translations and Euler angles of the moving handles within given bounds (paper, sec. 4.1).
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ class HandleBox:
         return replace(self, translation=largest[:3], angle=largest[3:])
 
     def renamed(self, old: Sequence[str], new: Sequence[str]) -> HandleBox:
-        """The box for other moving handles: a handle keeps the bounds that belong to its name.
+        """The box for other moving handles: bounds belong to names.
 
         Parameters
         ----------
@@ -148,8 +148,8 @@ class HandleBox:
     def grid(self, count: int) -> FloatArray:
         """Centres of equal cells of the box, the last parameter varying fastest: (k, dimension).
 
-        k is the largest product up to `count` (at least 1) of nearly equal numbers per free axis;
-        earlier axes are divided first.
+        k is the largest product up to `count` (at least 1) of nearly equal numbers of cells per
+        free axis; earlier axes get more cells.
         """
         require_count("HandleBox", "count", count)
         per_axis = [1] * self.dimension
@@ -163,7 +163,7 @@ class HandleBox:
         return self.from_unit(points.reshape(-1, self.dimension))
 
     def scaled(self, parameters: FloatArray) -> FloatArray:
-        """Coordinates in which distances of parameters are comparable: those of the unit cube."""
+        """Coordinates in which distances are comparable: those of the unit cube."""
         return self.to_unit(parameters)
 
 

@@ -24,7 +24,7 @@ def handles_of(value: Any, mesh: Body) -> Handles:
 
 
 def check_handles(value: Any) -> None:
-    """ValueError for what is wrong in the entry "handles" whatever the mesh is."""
+    """ValueError for mistakes in the entry "handles" that do not depend on the mesh."""
     named = _named(value)
     for name, item in named:
         with within(f"handle '{name}'"):

@@ -1,4 +1,4 @@
-"""HandleResponse: guesses near the solutions for moved handles, made without solving."""
+"""HandleResponse: guesses near the solutions for moved handles, without solving."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ FloatArray = NDArray[np.float64]
 class HandleResponse:
     """Linear responses of a problem's rest shape to small motions of its handles.
 
-    Handles whose bounds are zero are taken to be at rest.
+    Handles whose bounds are zero are assumed to be at rest.
     """
 
     def __init__(self, problem: PosingProblem) -> None:
@@ -35,7 +35,7 @@ class HandleResponse:
         system, inputs = problem.system, np.concatenate(asked)
         self._response = run_abandonable(lambda: core.LinearResponse(system, inputs))
 
-    # The problem is not an attribute: it has this response, and a cycle would keep both in memory.
+    # The problem is not an attribute: it owns this response, and a cycle would keep both in memory.
     def guesses(self, problem: PosingProblem, parameters: FloatArray) -> FloatArray:
         """Displacements near the solutions: the linear response, with finite rotations.
 
@@ -48,10 +48,11 @@ class HandleResponse:
         Returns
         -------
         ndarray, (k, 3n)
-            In rotation-strain coordinates (Huang et al. 2011): the gradient of the response to t
-            and the logarithm of R is taken for the logarithm of a rotation and a strain in every
-            tet, and these are integrated. Up to the tolerance of the responses, it is exact where
-            all handles move alike, and its error is quadratic for small motions.
+            In rotation-strain coordinates (Huang et al. 2011): in every tet, the gradient of the
+            response to t and the logarithm of R is interpreted as the logarithm of a rotation plus
+            a strain. Rotations and strains are then integrated. Up to the tolerance of the
+            responses, the guess is exact if all handles have the same motion, and its error is
+            quadratic for small motions.
         """
         offsets = problem.offsets_of_all(parameters)[:, self._moving]
         rotations = (offsets[..., :3] + np.eye(3)).reshape(-1, 3, 3)

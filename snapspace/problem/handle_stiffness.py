@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 
-#: In units of the shear modulus over the squared diagonal: holds handles to about a ten-thousandth
-#: of the diagonal. Problems made by hand have 1.6e5 to 4e5.
+#: In units of the shear modulus over the squared diagonal. Handles then miss their targets by about
+#: a ten-thousandth of the diagonal. Problems made by hand have 1.6e5 to 4e5.
 RELATIVE_STIFFNESS = 2e5
 
 
@@ -34,7 +34,7 @@ def checked_stiffness(stiffness: float) -> float:
 def usual_stiffness(mesh: Body, material: Material) -> float:
     """The default stiffness of handles: 2e5 times the mean shear modulus over the squared diagonal.
 
-    Solutions keep their form if mesh and motions are scaled, or all moduli are.
+    Solutions keep their form if mesh and motions are scaled together, or if all moduli are scaled.
     """
     mu = np.broadcast_to(material.mu, len(mesh.cells))
     return RELATIVE_STIFFNESS * float(np.average(mu, weights=mesh.volumes)) / mesh.diagonal**2

@@ -29,7 +29,7 @@ class Handle:
     mask_length: int | None = field(default=None, repr=False)
 
     def check_in(self, count: int, *, what: str = "mesh") -> None:
-        """ValueError unless it fits a mesh, or what else is named, of `count` vertices."""
+        """ValueError unless the handle fits a mesh, or the named object, of `count` vertices."""
         if self.mask_length not in (None, count):
             raise ValueError(
                 f"handle '{self.name}': the mask has {self.mask_length} entries, but the {what} "
@@ -48,16 +48,16 @@ class Handles:
     Parameters
     ----------
     vertices : sequence of array_like
-        For each handle, vertex indices or a boolean mask over all vertices of the mesh. Its length
-        is checked where handles and mesh meet, as in `PosingProblem`.
+        For each handle, vertex indices or a boolean mask over all vertices of the mesh. The length
+        of a mask is checked when handles and mesh are combined, as in `PosingProblem`.
     names : sequence of str, optional
         One per handle, unique. Default: handle_0, handle_1, ...
 
     Raises
     ------
     ValueError
-        For fewer than two handles, an empty or overlapping handle, a negative or non-integer
-        index, a mask of integers, names that do not match; the message names the handle.
+        For fewer than two handles, an empty or overlapping handle, a negative or non-integer index,
+        a mask of integers, or names that do not match. The message names the handle.
 
     Examples
     --------
@@ -102,7 +102,7 @@ class Handles:
         return self.names.index(name)
 
     def places_in(self, others: Handles) -> tuple[int | None, ...]:
-        """For each handle, the position among others of the one with the same vertices, or None."""
+        """For each handle, the index among others of the one with the same vertices, or None."""
         require_type("Handles.places_in", "others", others, Handles, "give Handles")
         places = {handle.vertices.tobytes(): place for place, handle in enumerate(others)}
         return tuple(places.get(handle.vertices.tobytes()) for handle in self)

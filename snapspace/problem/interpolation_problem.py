@@ -36,28 +36,29 @@ class InterpolationProblem:
     """Shape interpolation as a parametrised minimisation (paper, sec. 3.3).
 
     F(x, w) = sum_k w_k E_k(x), where E_k is the elastic energy with pose k as its rest shape. The
-    weights w are not negative and sum to one. F does not change under rigid motions of x: all
-    solutions are registered rigidly to the mean shape, the one with equal weights, which lies in
-    the frame of the first pose.
+    weights w are not negative and sum to one. F is invariant under rigid motions of x, so all
+    solutions are registered rigidly to the mean shape. The mean shape is the solution for equal
+    weights, in the frame of the first pose.
 
     Parameters
     ----------
     poses : Poses or ShellPoses, or a sequence of TetMesh or of ShellMesh
         Two or more; each may be in its own frame.
-    material : Material, default StableNeoHookean(lam=1, mu=1), of shells ARAP(radius=0.05)
-        Any of `MATERIALS`; of shells ARAP, StableNeoHookean or StVK. Moduli are numbers, or arrays
+    material : Material, default StableNeoHookean(lam=1, mu=1), for shells ARAP(radius=0.05)
+        Any of `MATERIALS`; for shells ARAP, StableNeoHookean or StVK. Moduli are numbers, or arrays
         with one number per tet or triangle. Blends of ARAP are unique where others crumple, see
         docs/materials.md.
     extrapolation : float, default 0
-        Samples also come from outside the simplex, which is enlarged by this share about its
-        centre. There F may have no minimum, and such samples are reported as not converged.
+        Enlarges the sampled simplex by this share about its centre. Outside the simplex F may have
+        no minimum; such samples are reported as not converged.
     mean_shape : array_like, (3n,), optional
-        If it is known, as from a model file. Default: solved for when it is first needed.
+        The mean shape, if it is known, as from a model file. Default: computed when it is first
+        needed.
 
     Raises
     ------
     ValueError
-        As for `Poses.of` and `ShellPoses.of`, and for moduli for another number of tets, a negative
+        As for `Poses.of` and `ShellPoses.of`, and for moduli of another number of tets, a negative
         extrapolation, or a mean shape of another size.
 
     Notes
@@ -89,7 +90,7 @@ class InterpolationProblem:
     @property
     def solving(self) -> SolverTraits:
         """What this problem needs of the solvers."""
-        # made anew each time: a stored one and the problem would keep each other in memory
+        # made anew each time, since a stored one and the problem would keep each other in memory
         shell = isinstance(self.mesh, ShellMesh)
         return interpolation_traits(self.material, shell=shell, system_near=self._system_near)
 
@@ -128,7 +129,7 @@ class InterpolationProblem:
         return self._solved_mean_shape(threads=0)
 
     def solve_mean_shape(self, *, threads: int | None = None) -> None:
-        """Solves for `mean_shape` now, unless it is known; `threads` is the number, default all."""
+        """Solves for `mean_shape` now, unless it is known; `threads`: how many, default all."""
         if "mean_shape" not in self.__dict__:
             self.mean_shape = self._solved_mean_shape(threads=threads or 0)
 
@@ -146,7 +147,7 @@ class InterpolationProblem:
 
     @cached_property
     def certain_range(self) -> CertainRange | None:
-        """Weights for which F certainly has a minimum, tested in all tets; None: no test is known.
+        """Weights for which F certainly has a minimum, by all tets; None if no test is known.
 
         A reduced model has its own, larger range: its energy has fewer tets.
         """
@@ -198,7 +199,7 @@ class InterpolationProblem:
         self.weights(parameters)
 
     def inputs(self, parameters: FloatArray) -> FloatArray:
-        """What the system takes for samples (k, p): the weights themselves."""
+        """Inputs of the system for samples (k, p): the weights themselves."""
         return np.ascontiguousarray(parameters)
 
     def weights(self, parameters: ArrayLike, *, extrapolate: bool = False) -> FloatArray:
@@ -221,7 +222,7 @@ class InterpolationProblem:
         return moved
 
     def guesses(self, parameters: FloatArray) -> None:
-        """None: there are no guesses for blends."""
+        """Always None: there are no guesses for blends."""
 
     def value_and_gradient(self, x: ArrayLike, weights: ArrayLike) -> tuple[float, FloatArray]:
         """F(x, w) at positions x (3n,) for any weights (p,), and its gradient (3n,) by x."""
@@ -230,7 +231,7 @@ class InterpolationProblem:
         return value, gradient
 
     def pose_energy(self, pose: int) -> core.ElasticEnergy:
-        """E_k of a pose registered to the mean shape; it takes displacements from there."""
+        """E_k of a pose registered to the mean shape, a function of displacements from there."""
         return self.pose_energies.energy(pose)
 
     def linear_blend(self, weights: ArrayLike, *, extrapolate: bool = False) -> FloatArray:
@@ -246,7 +247,8 @@ class InterpolationProblem:
 
     @cached_property
     def _rest_system(self) -> core.InterpolationSystem:
-        # energies do not depend on the poses' frames, but differences lose digits in distant ones
+        # energies do not depend on the poses' frames, but differences lose digits far from the
+        # origin
         shapes = self._near_poses.reshape(self.poses.shapes.shape)
         parts = self._given_energies.corners, self.element_material.core
         return run_abandonable(lambda: core.InterpolationSystem(shapes, *parts))

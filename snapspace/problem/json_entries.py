@@ -1,4 +1,4 @@
-"""Values from JSON content: each function returns the value, or says what came instead."""
+"""Values from JSON content: each function returns the value, or says what it got instead."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def within(place: str | Path) -> Iterator[None]:
 
 
 def as_object(value: Any, what: str, *, known: set[str] | None = None) -> dict[str, Any]:
-    """`value` if it is an object with no other keys than the known ones; ValueError otherwise."""
+    """`value` if it is an object with only known keys; ValueError otherwise."""
     if not isinstance(value, dict):
         raise ValueError(f"{what} must be an object {{...}}, got {_shown(value)}")
     for key in value:

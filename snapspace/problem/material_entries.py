@@ -23,17 +23,18 @@ def material_from(value: Any, mesh: Body) -> Material:
     value : object
         {"model": kind, moduli by name} or {"model": kind, "young", "poisson"}, settings by name,
         and "regions", see `with_regions`. Values of moduli are numbers, or lists with one number
-        per tet; what is missing has the default of the class. Without "model" it is stable
-        neo-Hookean, and without moduli as well the default of the body, which for shells is `ARAP`
-        with a radius. But if "lam" or "mu" is there and nothing else, it is St.Venant-Kirchhoff:
+        per tet; missing ones have the default of the class. Without "model" the material is stable
+        neo-Hookean. Without moduli as well it is the default of the body, which for shells is
+        `ARAP` with a radius. But if there is only "lam" or "mu", it is St.Venant-Kirchhoff, since
         old files named no model.
     mesh : TetMesh or ShellMesh
 
     Raises
     ------
     ValueError
-        For an unknown model, an entry that is mistyped or that the model does not have, moduli out
-        of range or for another number of tets, or a faulty region. The message names the entry.
+        For an unknown model, an entry that is mistyped or that the model does not have, moduli that
+        are out of range or for another number of tets, or a faulty region. The message names the
+        entry.
     """
     content = as_object(value, "material")
     usual = default_material(surface=isinstance(mesh, ShellMesh))
@@ -55,7 +56,7 @@ def material_from(value: Any, mesh: Body) -> Material:
 def material_content(material: Material) -> dict[str, Any]:
     """The entry "material" from which `material_from` makes the same material.
 
-    Moduli that differ from tet to tet become regions where they have few different values, and
+    Moduli that differ from tet to tet become regions if they have few different values, and
     otherwise lists.
     """
     content: dict[str, Any] = {_MODEL: material.kind}

@@ -16,9 +16,9 @@ from .place_entries import Mask, in_places, listed
 
 FloatArray = NDArray[np.float64]
 
-#: For more different sets of moduli, lists of moduli are written instead of regions.
+#: With more different sets of moduli than this, lists are written instead of regions.
 MOST_REGIONS = 16
-#: Corners among the vertices of a region that make a tet a part of it.
+#: Number of corners in the vertices of a region that make a tet a part of it.
 _CORNERS = 3
 _PLACES = {"boxes", "spheres", "vertices", "tets"}
 _FACTOR = "factor"
@@ -31,10 +31,10 @@ def with_regions(material: Material, regions: Sequence[Any], mesh: Body) -> Mate
     ----------
     material : Material
     regions : sequence of objects
-        Each has places, "boxes", "spheres" and "vertices" as handles have them, or a list of
-        "tets"; and either values, as the material itself has them, or a "factor" > 0 of all moduli.
-        A tet is in a region if its centroid is in a box or sphere, or three of its corners are
-        among the vertices, or it is listed. The tets of a shell are its triangles.
+        Each region has a place: "boxes", "spheres" and "vertices", as for handles, or a list of
+        "tets". It also has either moduli, as for the material itself, or a "factor" > 0 for all
+        moduli. A tet is in a region if its centroid is in a box or sphere, or three of its corners
+        are among the vertices, or it is listed. For a shell, "tets" means triangles.
     mesh : TetMesh or ShellMesh
 
     Raises
@@ -65,7 +65,7 @@ def regions_content(
 ) -> tuple[FloatArray | None, list[dict[str, Any]]]:
     """Moduli (m, k) as the set (k,) of most tets, and regions with the others; see `with_regions`.
 
-    The former is None if there are too many different sets.
+    The set is None if there are too many different ones.
     """
     different, which, counts = np.unique(rows, axis=0, return_inverse=True, return_counts=True)
     if len(different) > MOST_REGIONS:

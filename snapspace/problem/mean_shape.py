@@ -11,17 +11,18 @@ from ..interruptible import run_interruptible
 
 FloatArray = NDArray[np.float64]
 
-#: The mean shape is solved until twice the predicted decrease is below this share of its energy. It
-#: is tighter than samples, whose displacements are from it.
+#: The mean shape is solved until twice the predicted decrease is below this share of its energy.
+#: This is tighter than for samples, since their displacements are measured from the mean shape.
 TOLERANCE = 1e-10
-#: Iterations between two adaptations of the factor, which cost as much as about 15 iterations each.
-#: On the Lion 40, 80 and 160 need 240, 240 and 330 iterations in all; no adaptation needs 1100.
+#: Iterations between two adaptations of the factor, each of which costs about 15 iterations. On the
+#: Lion, intervals of 40, 80 and 160 need 240, 240 and 330 iterations in all; without adaptations
+#: 1100 are needed.
 _STAGE = 80
 _MOST_STAGES = 200
 
 
 def checked_mean_shape(shape: ArrayLike, size: int) -> FloatArray:
-    """A mean shape (3n,) that is already known; ValueError for another size than that of poses."""
+    """A known mean shape (3n,); ValueError unless it has the size of the poses."""
     x = as_numbers("InterpolationProblem", "the mean shape", shape).reshape(-1).copy()
     if len(x) != size:
         raise ValueError(
@@ -75,10 +76,10 @@ def mean_displacement(
 
 
 def _first_weights(poses: int) -> FloatArray:
-    """Weights (k, k) for the factor of the first stage: half each for a pose and the next one.
+    """Weights (k, k) for the factors of the first stage: half for a pose, half for the next one.
 
-    Weights of all poses would need k^2 Hessians: five seconds for ten poses of the Lion, and as
-    many iterations.
+    Weights for all poses would need k^2 Hessians: five seconds for ten poses of the Lion, without
+    saving iterations.
     """
     return (np.eye(poses) + np.roll(np.eye(poses), 1, axis=1)) / 2.0
 

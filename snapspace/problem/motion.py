@@ -32,8 +32,8 @@ def euler_of_rotation(rotation: ArrayLike) -> FloatArray:
     Returns
     -------
     ndarray, (..., 3)
-        In radians, with |beta| <= pi / 2 and the others in [-pi, pi]. Their `rotation_matrix` is
-        `rotation` to rounding, everywhere. At beta = pi / 2 and -pi / 2 (gimbal lock) only
+        In radians, with |beta| <= pi / 2 and the others in [-pi, pi]. Their `rotation_matrix`
+        always equals `rotation` up to rounding. At beta = pi / 2 and -pi / 2 (gimbal lock) only
         alpha - gamma or alpha + gamma is determined, and alpha is zero.
     """
     R = np.asarray(rotation, np.float64)
@@ -42,8 +42,8 @@ def euler_of_rotation(rotation: ArrayLike) -> FloatArray:
     locked = level <= 4.0 * np.finfo(float).eps
     alpha = np.where(locked, 0.0, np.arctan2(R[..., 2, 1], R[..., 2, 2]))
     beta = np.arctan2(-R[..., 2, 0], level)
-    # gamma from R Rx(-alpha) = Rz Ry: near gimbal lock alpha is mostly rounding, and this gamma
-    # makes up for it, while one from column 0 of R would have its own rounding
+    # gamma from R Rx(-alpha) = Rz Ry: near gimbal lock alpha is mostly rounding error, for which
+    # this gamma compensates; gamma from column 0 of R would have an independent error
     sine, cosine = np.sin(alpha), np.cos(alpha)
     gamma = np.arctan2(
         sine * R[..., 0, 2] - cosine * R[..., 0, 1], cosine * R[..., 1, 1] - sine * R[..., 1, 2]
@@ -54,8 +54,8 @@ def euler_of_rotation(rotation: ArrayLike) -> FloatArray:
 def rigid_offset(euler: ArrayLike, translation: ArrayLike) -> FloatArray:
     """Offsets [R - I | t], (..., 3, 4), of rigid motions about a centroid.
 
-    An offset maps (rest position - centroid, 1) to the displacement that the motion asks for:
-    target = R (v - c) + c + t. The identity has offset zero.
+    An offset maps (rest position - centroid, 1) to the displacement of the motion: target = R (v -
+    c) + c + t. The identity has offset zero.
     """
     rotation = rotation_matrix(euler) - np.eye(3)
     return np.concatenate([rotation, np.asarray(translation, np.float64)[..., None]], axis=-1)

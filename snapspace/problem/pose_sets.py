@@ -1,4 +1,4 @@
-"""Poses of tets or of a shell: from what users give, and from what pickles keep."""
+"""Poses of tets or of a shell: from the user's arguments, and from pickles."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ FloatArray = NDArray[np.float64]
 def as_poses(
     poses: Poses | ShellPoses | Sequence[TetMesh] | Sequence[ShellMesh],
 ) -> Poses | ShellPoses:
-    """Poses as they are, or made of meshes.
+    """The given poses, or poses made from meshes.
 
     ValueError for a mixture of tets and shells, or a pose that is neither.
     """
@@ -44,7 +44,7 @@ def as_poses(
 
 
 def pose_arguments(poses: Poses | ShellPoses) -> tuple[Any, ...]:
-    """What `restored_poses` makes the poses of."""
+    """The arguments from which `restored_poses` makes the poses."""
     if isinstance(poses, ShellPoses):
         option: dict[str, Any] = {"thickness": poses.thickness}
     else:
@@ -59,5 +59,5 @@ def restored_poses(
     names: Sequence[str],
     option: dict[str, Any],
 ) -> Poses | ShellPoses:
-    """The poses of `pose_arguments`, checked again."""
+    """The poses from `pose_arguments`, checked again."""
     return kind(shapes, cells, names=names, **option)

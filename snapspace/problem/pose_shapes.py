@@ -1,4 +1,4 @@
-"""PoseShapes: what poses of tets and of shells have in common, and its checks."""
+"""PoseShapes: the base of poses of tets and of shells, with its checks."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def check_meshes(meshes: object, kind: type, *, who: str) -> None:
 class PoseShapes:
     """Two or more named shapes (k, n, 3) of one mesh; ValueError, in the name of `who`, otherwise.
 
-    As for `Poses`, which says more; the shapes are copied and read-only.
+    Arguments are as for `Poses`; the shapes are copied and read-only.
     """
 
     def __init__(self, shapes: ArrayLike, names: Sequence[str] | None, *, who: str) -> None:
@@ -81,7 +81,7 @@ def as_names(names: Sequence[str] | None, count: int, *, who: str) -> tuple[str,
 
 
 def check_finite_shapes(shapes: FloatArray, names: tuple[str, ...], *, who: str) -> None:
-    """ValueError that names the first vertex (k, n, 3) that is not finite."""
+    """ValueError, which names the first vertex of (k, n, 3) that is not finite."""
     bad = np.argwhere(~np.isfinite(shapes).all(axis=2))
     if len(bad):
         pose, vertex = bad[0]

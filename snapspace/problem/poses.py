@@ -30,7 +30,7 @@ class Poses(PoseShapes):
         One per pose, unique. Default: pose 0, pose 1, ...
     accept_inverted : bool, default False
         Accepts inverted tets in all poses except the first. Their energy is that of the mirrored
-        tet, so interpolated shapes may have such tets as well.
+        tet, so interpolated shapes may have inverted tets as well.
 
     Raises
     ------
@@ -94,7 +94,7 @@ class Poses(PoseShapes):
 
     @property
     def inverted_tets(self) -> NDArray[np.int64]:
-        """How many tets are inverted in each pose, (k,); zero unless they were accepted."""
+        """Number of inverted tets in each pose, (k,); zero unless they were accepted."""
         return self._inverted_tets
 
     def __repr__(self) -> str:

@@ -35,32 +35,32 @@ class PosingProblem:
     """Deformation-based modelling as a parametrised minimisation (paper, sec. 3.2).
 
     F(x, w) = E(x) + stiffness * sum_h sum_{j in h} m_j |v_j - target_j(w)|^2, where m_j is a
-    quarter of the volume of the tets at j, or a third of that of the triangles, and handle h asks
-    for target_j = R (rest_j - c) + c + t about its mass centroid c.
+    quarter of the volume of the tets at j, or a third of that of the triangles at j. The targets of
+    handle h are target_j = R (rest_j - c) + c + t about its mass centroid c.
 
     Parameters
     ----------
     mesh : TetMesh or ShellMesh
     handles : Handles
         The first one stays at rest while sampling, as do those whose bounds are zero.
-    material : Material, default StableNeoHookean(lam=1, mu=1), of shells ARAP(radius=0.02)
-        Moduli are numbers, or arrays with one number per tet or triangle. Of a shell it is
-        `StableNeoHookean`, `StVK` or `ARAP`, see `ElasticEnergy`; the thickness is only a factor
-        for `ARAP`.
+    material : Material, default StableNeoHookean(lam=1, mu=1), for shells ARAP(radius=0.02)
+        Moduli are numbers, or arrays with one number per tet or triangle. A shell is
+        `StableNeoHookean`, `StVK` or `ARAP`, see `ElasticEnergy`; for `ARAP` the thickness is only
+        a factor.
     stiffness : float, optional
         Weight of the handles, > 0, in energy per volume and squared length (paper, mu of eq. 2).
         Default: `usual_stiffness`, which follows the size and the moduli of the body.
     domain : HandleBox
-        Bounds of the motions; `moving` is set to the number of handles less one.
+        Bounds of the motions; `moving` is set to the number of handles minus one.
 
     Raises
     ------
     ValueError
-        For a mesh, handles or a domain of another type, a stiffness that is not positive, a
-        material that is not one of `MATERIALS`, has moduli for another number of tets or no form
-        for shells, a handle with a vertex that the mesh does not have or made of a mask of another
-        length (the message names it), or handles that all lie on one line, about which the shape
-        could turn. Every component of a shell must be held by itself.
+        For a mesh, handles or a domain of another type; a stiffness that is not positive; a
+        material that is not one of `MATERIALS`, has moduli for another number of tets, or has no
+        form for shells; a handle with a vertex that the mesh does not have, or from a mask of
+        another length (the message names it); or handles that all lie on one line, about which the
+        shape could rotate. Every component of a mesh must be held.
     """
 
     def __init__(
@@ -89,9 +89,9 @@ class PosingProblem:
         self.energy = ElasticEnergy(mesh, self.material)
 
     def with_handles(self, handles: Handles, *, domain: HandleBox | None = None) -> PosingProblem:
-        """The same body, of the same material and stiffness, moved by other handles.
+        """The same body, with the same material and stiffness, moved by other handles.
 
-        `carry_over` takes solutions for the old handles over to the new ones.
+        `carry_over` reuses solutions for the old handles.
 
         Parameters
         ----------
@@ -128,7 +128,7 @@ class PosingProblem:
     @property
     def solving(self) -> SolverTraits:
         """What this problem needs of the solvers."""
-        # made anew each time: a stored one and the problem would keep each other in memory
+        # made anew each time, since a stored one and the problem would keep each other in memory
         return posing_traits(
             self.material,
             shell=isinstance(self.mesh, ShellMesh),
@@ -204,7 +204,7 @@ class PosingProblem:
 
     @cached_property
     def _soft_modes(self) -> core.SoftModes:
-        """Modes that the scalar factor mistakes for stiff, for the seed of the fast solver."""
+        """Soft modes that the scalar factor treats as stiff, for the seed of the fast solver."""
         system = self.system
         return run_abandonable(lambda: core.SoftModes(system))
 
@@ -230,7 +230,7 @@ class PosingProblem:
         return rigid_offset(motions[..., 3:], motions[..., :3])
 
     def target_displacements(self, offsets: FloatArray) -> FloatArray:
-        """Displacements (..., p, 3) that offsets (..., h, 3, 4) ask of the pinned vertices."""
+        """Target displacements (..., p, 3) of the pinned vertices for offsets (..., h, 3, 4)."""
         offsets = as_arrays("PosingProblem", "offsets", offsets, len(self.handles), 3, 4)
         turns, shifts = offsets[..., :3].swapaxes(-1, -2), offsets[..., None, :, 3]
         parts = [x @ turns[..., h, :, :] + shifts[..., h, :, :] for h, x in enumerate(self._arms)]
@@ -252,7 +252,7 @@ class PosingProblem:
             raise ValueError(f"PosingProblem: parameter {bad}, {entry} of '{name}', is not finite")
 
     def inputs(self, parameters: FloatArray) -> FloatArray:
-        """What the system takes for samples (k, p): pinned displacements, (k, 3 pins)."""
+        """Inputs of the system for samples (k, p): pinned displacements, (k, 3 pins)."""
         wanted = self.target_displacements(self.offsets_of_all(parameters))
         return wanted.reshape(len(wanted), -1)
 
@@ -281,7 +281,7 @@ class PosingProblem:
         return elastic + self.handle_energy(x, offsets), gradient
 
     def _misses(self, x: ArrayLike, offsets: FloatArray) -> FloatArray:
-        """Vectors to the pinned vertices from where the offsets want them, (p, 3)."""
+        """Vectors from the targets of the pinned vertices to the vertices, (p, 3)."""
         shape = as_shape(x, self.base.size, who="PosingProblem")
         moved = shape.reshape(-1, 3)[self.pinned]
         wanted = self.mesh.vertices[self.pinned] + self.target_displacements(offsets)

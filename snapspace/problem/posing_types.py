@@ -1,4 +1,4 @@
-"""check_posing_types: what a posing problem is made of."""
+"""check_posing_types: the types of a posing problem's arguments."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .handles import Handles
 
 
 def check_posing_types(mesh: Body, handles: Handles, domain: HandleBox) -> None:
-    """ValueError that says what to give, for arguments of other types."""
+    """ValueError, which says what to give, for arguments of other types."""
     check_body(mesh, "PosingProblem")
     if not isinstance(handles, Handles):
         cure = "give Handles([fixed, moving]) of masks or vertex indices"

@@ -21,7 +21,7 @@ class ProblemDomain(Domain, Protocol):
     """A parameter domain that can be sampled and in which distances can be compared."""
 
     def scaled(self, parameters: FloatArray) -> FloatArray:
-        """Coordinates of parameters (k, p) in which their distances are comparable."""
+        """Coordinates for parameters (k, p) in which distances are comparable."""
         ...
 
 
@@ -38,17 +38,17 @@ class Problem(Protocol):
 
     @property
     def material(self) -> Material:
-        """What the body is made of; moduli are uniform, or one per cell of the mesh."""
+        """The material of the body; moduli are uniform, or one per cell of the mesh."""
         ...
 
     @property
     def element_material(self) -> Material | ShellMaterial:
-        """What the elements of the mesh are made of: tets, or triangles and hinges."""
+        """The material of the elements of the mesh: tets, or triangles and hinges."""
         ...
 
     @property
     def domain(self) -> ProblemDomain:
-        """Where the parameters come from."""
+        """The domain of the parameters."""
         ...
 
     @property
@@ -58,7 +58,7 @@ class Problem(Protocol):
 
     @property
     def base(self) -> FloatArray:
-        """Shape (3n,) from which the solvers' displacements count."""
+        """Shape (3n,) from which the solvers measure displacements."""
         ...
 
     @property
@@ -86,11 +86,11 @@ class Problem(Protocol):
         ...
 
     def check(self, parameters: FloatArray) -> None:
-        """ValueError unless one parameter vector (p,) may be solved for."""
+        """ValueError unless a parameter vector (p,) can be solved for."""
         ...
 
     def inputs(self, parameters: FloatArray) -> FloatArray:
-        """What the system takes for parameters (k, p)."""
+        """Inputs of the system for parameters (k, p)."""
         ...
 
     def guesses(self, parameters: FloatArray) -> FloatArray | None:

@@ -50,21 +50,21 @@ def read_problem(
     ----------
     path : path of a JSON file
         {"mesh": path relative to the file, "surface": path of the surface that models show, see
-        `read_problem_surface`; without "mesh" it is filled with tets in seconds, see
-        `stuff_surface`, or it is a shell, see `shell_of_file`, with "body": {"shell": {"thickness":
-        number, or one per triangle}}, "up": axis that points up in pages and pictures, "mirror":
-        {"normal": [x, y, z], "point": [x, y, z]}, the plane that mirrors poses, "material",
-        "stiffness", "domain": {"translation", "angle_degrees"}, "handles": [{"name", "boxes",
-        "spheres", "vertices", "painted", "domain"}, ...]}.
-        A handle is the union of its boxes [[min corner], [max corner]] (null: unbounded), spheres
-        [[x, y, z], radius] and vertices. "painted" lists the surface vertices that the user chose
-        for it; only the page reads them. The first handle is the fixed one; any other may have its
-        own domain, whose entries replace those of the common one. A handle whose bounds are all
-        zero is held at rest too. The material is {"model": one of `MATERIALS`, its moduli by name
-        or "young" and "poisson", "regions": [...]}, where values are numbers or lists with one per
-        tet, or per triangle of a shell. A region has "boxes", "spheres" and "vertices", or "tets",
-        and new values or a "factor"; later ones win. Without "material" it is the default one, and
-        without "stiffness" the stiffness of the handles follows from the body, see
+        `read_problem_surface`, "body": {"shell": {"thickness": number, or one per triangle}}, "up":
+        axis that points up in pages and pictures, "mirror": {"normal": [x, y, z], "point": [x, y,
+        z]}, the plane that mirrors poses, "material", "stiffness", "domain": {"translation",
+        "angle_degrees"}, "handles": [{"name", "boxes", "spheres", "vertices", "painted", "domain"},
+        ...]}. Without "mesh" the surface is filled with tets in seconds, see `stuff_surface`. With
+        "body" the surface is a shell, see `shell_of_file`. A handle is the union of its boxes [[min
+        corner], [max corner]] (null: unbounded), spheres [[x, y, z], radius] and vertices.
+        "painted" lists the surface vertices that the user chose for it; only the page reads them.
+        The first handle is the fixed one; any other may have its own domain, whose entries replace
+        those of the common one. A handle whose bounds are all zero is held at rest as well. The
+        material is {"model": one of `MATERIALS`, its moduli by name or "young" and "poisson",
+        "regions": [...]}, where values are numbers or lists with one per tet, or per triangle of a
+        shell. A region has "boxes", "spheres" and "vertices", or "tets", and new values or a
+        "factor"; later regions override earlier ones. Without "material" the default material is
+        used. Without "stiffness" the stiffness of the handles follows from the body, see
         `usual_stiffness`.
     mesh : TetMesh or ShellMesh, optional
         Used instead of the file's mesh, or its shell.
@@ -105,7 +105,7 @@ def read_problem_surface(path: str | Path, mesh: Body) -> EmbeddedSurface | None
     ------
     ValueError
         If a file cannot be read, or the surface does not belong to the mesh: a vertex is farther
-        from it than its diagonal.
+        from the mesh than the mesh's diagonal.
     """
     path = as_path("read_problem_surface", path)
     content = _load(path)
@@ -127,7 +127,7 @@ def problem_content(
     up: str | None = None,
     mirror: MirrorPlane | None = None,
 ) -> dict[str, Any]:
-    """The problem as the JSON content that `read_problem` takes, handles by vertices.
+    """The problem as JSON content for `read_problem`, with handles as lists of vertices.
 
     Arguments that are None are left out.
     """
@@ -166,7 +166,7 @@ def _load(path: Path) -> dict[str, Any]:
 
 
 def _check_kind(path: Path) -> None:
-    """ValueError that says what a file is that does not end in .json."""
+    """ValueError, which says what the file is, unless its name ends in .json."""
     if path.is_file() and path.suffix.lower() != ".json":
         raise ValueError(
             f"{path}: this is {file_kind(path)}, but a problem (.json) is needed, which names the "
@@ -187,7 +187,7 @@ def problem_surface_file(path: Path) -> Path | None:
 def check_problem(path: Path) -> None:
     """ValueError for mistakes in a problem of a solid that do not depend on its mesh.
 
-    `read_problem` finds them, and others, once there is a mesh; making one may take minutes.
+    `read_problem` finds these and others once there is a mesh, but making one may take minutes.
     """
     with within(path):
         check_entries(_load(path))

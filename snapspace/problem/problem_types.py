@@ -1,4 +1,4 @@
-"""require_problem, require_posing_problem: refuse what is no problem."""
+"""require_problem, require_posing_problem: refuse anything that is not a problem."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ def require_problem(
     *,
     cure: str = "give a PosingProblem or InterpolationProblem",
 ) -> None:
-    """ValueError of `who` for something else than a problem, such as a model."""
+    """Raises a ValueError in the name of `who` for anything but a problem, such as a model."""
     if not hasattr(problem, "parameter_count"):  # any class may be a problem
         raise wrong_type(who, "problem", problem, _own_problem(problem) or cure)
 
 
 def require_posing_problem(problem: object, who: str) -> None:
-    """The same, also for a problem without handles."""
+    """The same, and for a problem without handles."""
     if not isinstance(problem, PosingProblem):
         cure = "give a PosingProblem: only that has handles"
         raise wrong_type(who, "problem", problem, _own_problem(problem) or cure)

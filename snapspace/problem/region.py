@@ -56,6 +56,6 @@ def in_sphere(vertices: ArrayLike, center: Sequence[float], radius: float) -> ND
 
 
 def _is_triple(values: Any, *, open_sides: bool = False) -> bool:
-    """Whether they are three numbers, or None for open sides."""
+    """Whether the entries are three numbers, or None for open sides."""
     array = np.asarray(values, dtype=object)
     return array.shape == (3,) and all(is_number(x) or (open_sides and x is None) for x in array)

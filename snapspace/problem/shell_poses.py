@@ -28,7 +28,7 @@ class ShellPoses(PoseShapes):
     triangles : array_like of int, (f, 3)
         0-based vertex indices.
     thickness : float or array_like (f,), > 0
-        Of all poses, in the unit of length; see `ShellMesh`.
+        Thickness in all poses, in the unit of length; see `ShellMesh`.
     names : sequence of str, optional
         One per pose, unique. Default: pose 0, pose 1, ...
 
@@ -41,7 +41,7 @@ class ShellPoses(PoseShapes):
 
     Notes
     -----
-    Nothing holds the components of blended shapes together, so there may be only one.
+    Nothing holds the components of blended shapes together, so only one is allowed.
     """
 
     def __init__(

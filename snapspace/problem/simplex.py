@@ -15,8 +15,9 @@ from .blends import blend_weights
 
 FloatArray = NDArray[np.float64]
 
-#: How far a sum of weights may be from one: weights may come in single precision, where a division
-#: by their sum leaves 1e-7. Shapes do not change, since they minimise a sum times these weights.
+#: Largest distance of a sum of weights from one. In single precision, weights divided by their sum
+#: miss it by 1e-7. Shapes do not change, since a common factor of the weights does not move a
+#: minimum.
 _SUM_TOLERANCE = 1e-6
 #: How far a weight may be beyond a face of the domain.
 _FACE_TOLERANCE = 1e-9
@@ -75,7 +76,7 @@ class Simplex:
 
     @property
     def lowest(self) -> float:
-        """The least weight of the domain, -extrapolation / corners."""
+        """The smallest weight of the domain, -extrapolation / corners."""
         return -self.extrapolation / self.corners if self.extrapolation else 0.0
 
     def from_unit(self, points: FloatArray) -> FloatArray:
@@ -114,22 +115,23 @@ class Simplex:
         return self._enlarged((steps + 1.0 / self.corners) / (level + 1))
 
     def blends(self, count: int, *, seed: int = 0, scramble: bool = True) -> FloatArray:
-        """Weights (count, corners): blends of two corners first, then also of three and of all.
+        """Weights (count, corners): blends of two corners first, then of three and of all as well.
 
-        For many corners, where uniform points lie around the centre and say little about blends of
-        few. All pairs are blended evenly before any pair is blended again, see `blend_weights`; a
-        sample does not depend on how many follow. With extrapolation the weights of two or three
-        corners go down to `lowest` while the others are zero, and blends of all fill the whole
-        domain. Corners themselves are left out, because their solutions are known.
+        These are for many corners, where uniform points lie around the centre and say little about
+        blends of few. All pairs are blended evenly before any pair is blended again, see
+        `blend_weights`. A sample does not depend on the number of samples. With extrapolation the
+        weights of two or three corners reach down to `lowest` while the others are zero, and blends
+        of all corners fill the whole domain. Corners themselves are left out, because their
+        solutions are known.
 
         Parameters
         ----------
         count : int
             Number of samples, > 0.
         seed : int, default 0
-            Seeds the order of the corners, and the Sobol sequence of the blends of all.
+            Seeds the order of the corners, and the Sobol sequence of the blends of all corners.
         scramble : bool, default True
-            Without it corners come in their own order, and the Sobol sequence is the plain one.
+            If False, corners come in their own order, and the Sobol sequence is not scrambled.
         """
         require_count("Simplex", "count", count, at_least=1)
         inside = self.from_unit(sobol_points(self.dimension, count, seed=seed, scramble=scramble))
@@ -169,8 +171,8 @@ class Simplex:
         Returns
         -------
         ndarray, (corners,) float64
-            The weights as they are. They may miss the sum by 1e-6, and a face of the domain by
-            1e-9.
+            The unchanged weights. Their sum may differ from one by 1e-6, and they may lie beyond a
+            face of the domain by 1e-9.
 
         Raises
         ------
@@ -209,5 +211,5 @@ class Simplex:
         return w
 
     def _enlarged(self, weights: FloatArray) -> FloatArray:
-        """Maps weights of the simplex onto the domain, which is larger about the centre."""
+        """Maps weights of the simplex onto the domain, which is enlarged about the centre."""
         return (1.0 + self.extrapolation) * weights + self.lowest

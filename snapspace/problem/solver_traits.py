@@ -18,25 +18,25 @@ Projection = Literal["stretches", "clamp", "absolute"]
 
 @dataclass(frozen=True, kw_only=True)
 class SolverTraits:
-    """How full solutions of a problem are found; users can override this with `SolverOptions`.
+    """How full solutions of a problem are found; users can override it with `SolverOptions`.
 
     tolerance : tolerance of snapshots, where neither the user nor settling decides; snapshots that
         train a cubature, whose forces must be near equilibrium, never settle
-    loose_tolerance : tolerance of samples for a first impression, see `growing_models`
+    loose_tolerance : tolerance of samples for a preliminary model, see `growing_models`
     settling : share of the displacement at which the fast solver's steps may end; 0 for never
     patience : iterations of the fast solver after which `system_near` helps; None if it never does
     projection : projection of the tets' Hessians in Newton's method, see `SolverOptions`
     far_apart : whether a shape interpolated between solutions may be a worse start than the nearest
         solution
-    soft_modes : returns the modes that the system's scalar factor mistakes for stiff, or None if
-        unknown; the first call computes them, and the problem keeps them
+    soft_modes : returns the soft modes that the system's scalar factor treats as stiff, or None if
+    unknown; the first call computes them, and the problem stores them
     system_near : returns the compiled problem for solutions near a displacement (3n,)
     seeded_tolerance : tolerance of snapshots that start from a reduced model's solutions; None if
-        such starts do not pay
-    seeded_hessians : whether its Hessians are in their seed, see `Predictions`; not where the
-        system's seed knows soft motions without them
+    such starts do not pay off
+    seeded_hessians : whether their seed has the model's Hessians, see `Predictions`; not where the
+    system's seed has soft motions already
     polishing_hessian : whether the reduced Hessian is in the seed of `Polisher`; not where patches
-        know soft motions better
+    represent soft motions better
     """
 
     tolerance: float
@@ -53,10 +53,10 @@ class SolverTraits:
 
 
 #: Iterations on the shared factor after which an interpolated sample gets its own factor. Without
-#: patches most take 200. A factor and a solve alone take as long as about 600 iterations beside
-#: others: 32 samples of ten Lions take 10.3 s with 240, 5.6 s with 400, and 6.9 s with 800. Samples
-#: that start far from their minimum take 650 on the shared factor, or 240 on it and 220 more on
-#: their own.
+#: patches most samples take 200. A factor and a separate solve cost as much as about 600 iterations
+#: together with others: 32 samples of ten Lions take 10.3 s with a patience of 240, 5.6 s with 400,
+#: and 6.9 s with 800. Samples that start far from their minimum take 650 iterations on the shared
+#: factor, or 240 on it and 220 more on their own.
 PATIENCE = 400
 
 
@@ -67,22 +67,22 @@ def posing_traits(
     soft_modes: Callable[[], core.SoftModes],
     system_near: Callable[[FloatArray], Any],
 ) -> SolverTraits:
-    """Traits of posing: the only place that decides how tightly snapshots are solved.
+    """Traits of posing, the only place that determines how tightly snapshots are solved.
 
-    Where the reduced energy can be an exact quartic, only the shapes count. They may be as far from
-    the minimum as a subspace of 40 dimensions usually is from the shapes: 1 % of the displacement.
-    On the Dragon a tolerance of 1e-5 leaves 0.3 %.
+    If the reduced energy can be an exact quartic, only the shapes matter. Their error may be as
+    large as the projection error of a subspace of 40 dimensions usually is: 1 % of the
+    displacement. On the Dragon a tolerance of 1e-5 leaves 0.3 %.
 
-    All other materials are reduced to a cubature, which is trained on the forces that tets exert at
-    the snapshots. Settled snapshots have wrinkles whose forces no solution has: on the Dragon, with
+    All other materials are reduced to a cubature, which is trained on the forces of tets at the
+    snapshots. Settled snapshots have wrinkles with forces that no solution has: on the Dragon, with
     stable neo-Hookean, they leave live errors of 0.0056 / 0.0075 (median / mean). A tolerance of
     1e-6, in single precision, leaves 0.0018 / 0.0029 (300 samples, d = 120, 1000 tets) in 13 s of
     processor time; 1e-7, in double precision, takes 24 s and leaves 0.0015 / 0.0021. The gap grows
     with d: it is 0.0028 / 0.0030 against 0.0014 / 0.0022 with 800 samples.
 
-    Expected decreases are those of the scalar factor, which takes shear to be as stiff as stretch:
-    they are too small by (2 mu + lam) / mu. Tolerances of nearly incompressible materials are
-    lower by this factor, relative to lam = mu. On a creature with a Poisson ratio of 0.45, 1e-6
+    Expected decreases are those of the scalar factor, which treats shear as stiff as stretch: they
+    are too small by a factor of (2 mu + lam) / mu. Tolerances of nearly incompressible materials
+    are lower by this factor, relative to lam = mu. On a creature with a Poisson ratio of 0.45, 1e-6
     leaves live errors of 0.0097, 1e-7 leaves 0.0039; with 0.49 they are 0.0135 and 0.0067 (d = 80).
 
     Shells are solved to 1e-6, in single precision: on Spot, 829 vertices, with a thickness of 3 %
@@ -99,9 +99,9 @@ def posing_traits(
     Guesses may have inverted tets. Where their energy is infinite, samples start from the known
     shape of lowest energy.
 
-    Newton's method projects as the paper does where the material is the paper's.
+    Newton's method uses the paper's projection for the paper's material.
 
-    The handles' matrix is part of every Hessian, so that one factor serves all samples, with
+    The handles' matrix is part of every Hessian, so one factor is good for all samples, with
     unlimited patience. Interpolated starts were never worse than the nearest sample on the Dragon.
     """
     settles = material.exact_degree == 4 and not shell
@@ -124,12 +124,12 @@ def posing_traits(
 
 
 def usual_projection(material: Material, *, shell: bool) -> Projection:
-    """Newton's default projection: the paper's where the material is the paper's, and of tets."""
+    """Newton's default projection: the paper's for tets of the paper's material."""
     return "stretches" if isinstance(material, StVK) and not shell else "clamp"
 
 
 def _shear_share(material: Material) -> float:
-    """The least mu / (2 mu + lam) of all tets, relative to that of lam = mu, but at most 1."""
+    """The smallest mu / (2 mu + lam) of all tets, relative to that of lam = mu, but at most 1."""
     return min(1.0, 3.0 * float(np.min(np.divide(material.mu, material.stiffness))))
 
 
@@ -138,13 +138,13 @@ def interpolation_traits(
 ) -> SolverTraits:
     """Traits of interpolation.
 
-    Nothing holds the shape, and poses differ in what is soft. So no soft modes are known, and
-    shapes move along them in steps too short for settling to be recognised: the tolerance must be
-    tight. Halfway between distant poses a blend of solutions shrinks and turns inside out.
+    Nothing holds the shape, and soft directions differ between poses. So soft modes are unknown,
+    and shapes move along them in steps too short for the settling test: the tolerance must be
+    tight. Halfway between distant poses a blend of solutions shrinks and inverts.
 
-    Surfaces as rigid as possible have patches in their seed: they take 25 to 37 evaluations, from
-    starts of a model 14 to 28, and are as near to the minimum with 1e-7 as with 1e-9. Four Lions of
-    tets take 35 with a model's starts and 33 with its Hessians.
+    As-rigid-as-possible surfaces have patches in their seed. They take 25 to 37 evaluations, or 14
+    to 28 from a model's solutions, and are as close to the minimum with 1e-7 as with 1e-9. Four
+    Lions of tets take 35 from a model's solutions, and 33 with its Hessians as well.
     """
     patches_suffice = shell and isinstance(material, ARAP)
     return SolverTraits(

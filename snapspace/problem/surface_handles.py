@@ -1,4 +1,4 @@
-"""handles_in_tets: handles chosen on a surface, as handles of the tets inside it."""
+"""handles_in_tets: converts handles of a surface to handles of the tets inside it."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ def handles_in_tets(handles: Handles, mesh: Body, surface: EmbeddedSurface) -> H
     Returns
     -------
     Handles
-        With the same names, and at least 3 vertices each. A tet vertex of the boundary belongs to
-        the handle of the closest surface vertex, so handles have no gaps where the surface is
-        coarser than the tets. The tet vertex that a surface vertex follows most belongs to its
-        handle too, for places where the surface is finer.
+        They have the same names, and at least 3 vertices each. A tet vertex of the boundary belongs
+        to the handle of the closest surface vertex, so handles have no gaps where the surface is
+        coarser than the tets. Where the surface is finer, the tet vertex with the largest weight
+        for a surface vertex belongs to that vertex's handle as well.
 
     Raises
     ------
@@ -70,7 +70,7 @@ class SurfaceHandles:
         )
 
     def in_tets(self, handles: Handles, *, known: Sequence[Indices | None] = ()) -> Handles:
-        """As `handles_in_tets`; `known` has the tet vertices of handles that keep theirs."""
+        """As `handles_in_tets`; `known` has the tet vertices of handles that keep them."""
         of_surface = self._owners_on_surface(handles)
         of_tets = self._owners_in_tets(of_surface, len(handles))
         for one, region in enumerate(known):

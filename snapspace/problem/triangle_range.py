@@ -1,4 +1,4 @@
-"""The certain range of a surface that is as rigid as possible."""
+"""The certain range of an as-rigid-as-possible surface."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from .certain_range import CertainRange
 def triangle_range(corners: NDArray[np.float64]) -> CertainRange:
     """Weights for which the blended energy of `ARAP` certainly has a minimum.
 
-    The energy of a triangle is a multiple of tr(F M F^T), with M = sum_k w_k area_k A_k A_k^T, less
-    what the rotations leave, which grows only linearly; A_k maps the triangle in pose k to that in
-    pose 0. With M positive definite in all triangles the sum has a minimum. The condition is
-    sufficient, not necessary: one squeezed triangle ends the range.
+    The energy of a triangle is a multiple of tr(F M F^T), with M = sum_k w_k area_k A_k A_k^T,
+    minus a term from the rotations, which grows only linearly; A_k maps the triangle in pose k to
+    that in pose 0. If M is positive definite in all triangles the sum has a minimum. The condition
+    is sufficient, not necessary: one compressed triangle ends the range.
 
     Parameters
     ----------
