@@ -1,4 +1,4 @@
-"""What a model's record says about its errors, for `info` and the end of a build."""
+"""A model's recorded errors, for `info` and the end of a build."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def _errors(figures: dict[str, Any], asked: str = "") -> str:
 
 
 def _inverted(unseen: dict[str, Any]) -> str:
-    """How many shapes have inverted tets, and the most in one shape."""
+    """Numbers of shapes with inverted tets, and the largest number in one shape."""
     counts = unseen["inverted_tets"]
     return (
         f"in {_shapes(counts['samples'], 'samples')}; in "

@@ -43,7 +43,7 @@ class AccurateRecipe:
     threads: int | None
 
     def key(self, problem: PosingProblem | InterpolationProblem) -> str:
-        """Hash of all that the samples depend on; their starts follow from the target."""
+        """Hash of everything that the samples depend on; their starts follow from the target."""
         choice: dict[str, Any] = {
             "seed": self.seed,
             "accurate": [usual_most_samples(problem), self.target_error],
@@ -66,7 +66,7 @@ def chosen_build(
     start: PosingModel | None = None,
     solver: SolverOptions,
 ) -> partial[Built]:
-    """`build_model` with the recipe if it was decided by hand, else `build_accurate_model`."""
+    """`build_model` if the user gave samples or subspace, otherwise `build_accurate_model`."""
     if by_hand:
         return partial(build_model, problem, recipe)
     accurate = AccurateRecipe(
@@ -138,7 +138,7 @@ def build_accurate_model(
 
 
 def _notice_unjudged(built: AccurateModel[Any]) -> None:
-    """A notice if full solutions did not converge, so that the errors leave their motions out."""
+    """A notice if full solutions did not converge, so that the errors do not include them."""
     missing = int((built.held_out & ~built.snapshots.converged).sum())
     if missing:
         notice(

@@ -17,7 +17,7 @@ from .console import notice
 from .next_build import next_build
 from .progress import spinner
 
-#: Full solutions whose errors are split for advice, which needs only the largest part.
+#: Number of full solutions whose errors are split; advice needs only the largest part.
 SPLIT = 5
 
 

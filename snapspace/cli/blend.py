@@ -76,7 +76,7 @@ EVEN = ("shape", "weights")
 )
 @surface_option
 @click.option("--extrapolate", is_flag=True, help="Accept weights outside the sampled simplex.")
-@click.option("--png", type=FILE, metavar="FILE", help="Also a picture of the shapes.")
+@click.option("--png", type=FILE, metavar="FILE", help="Also write a picture of the shapes.")
 @up_option
 @leading_option
 @json_option
@@ -106,7 +106,7 @@ def blend(
 
     With --path the largest motion of a vertex is the same from frame to frame, and every pose is a
     frame if there are as many frames as poses. If the shape jumps, however small the step, the
-    frame is reported.
+    command reports the frame.
     """
     if png is not None:
         need_extra("pictures", who="--png")
@@ -118,7 +118,7 @@ def blend(
         raise ValueError("--fps is for a film of --path")
     film = frames is not None and is_film(output)
     if linear and film:
-        raise ValueError("--linear writes further files; give a folder in place of a film")
+        raise ValueError("--linear writes further files; give a folder instead of a film")
     if even is not None and frames is None:
         raise ValueError("--even is for --path; --weights has one shape")
     model = with_surface(load_interpolation(model_file, dimension), surface_file)
@@ -173,7 +173,7 @@ def _weights(
 def _path_shapes(
     model: InterpolationModel, session: BlendingSession, frames: int, even: str, *, linear: bool
 ) -> tuple[list[BlendedShape], list[PathJump]]:
-    """The shapes of a path, and where it jumps."""
+    """The shapes of a path, and its jumps."""
     if even == "weights":
         rows = path_weights(len(model.problem.poses), frames)
         return [shape_at(model, session, w, linear=linear, extrapolate=False) for w in rows], []

@@ -25,7 +25,7 @@ def certain_share(model: InterpolationModel, weights: FloatArray) -> str:
     """The end of a message: how far from equal weights there certainly is a minimum."""
     certain = model.certain_range
     share = np.inf if certain is None else certain.reach(weights)
-    if share >= 1.0:  # the range is not the reason
+    if share >= 1.0:  # the range does not explain it
         return ""
     return f"; up to {100 * share:.3g} % of the way from equal weights it certainly has one"
 

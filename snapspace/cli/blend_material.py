@@ -58,8 +58,8 @@ def blend_material(
     Raises
     ------
     ValueError
-        For a material that a shell cannot have, options on the command line that do not go with
-        `--shell`, or a radius or first Lame parameter of a material that has none.
+        For a material that has no form for shells, options on the command line that contradict
+        `--shell`, or a radius or first Lame parameter for a material that has none.
     """
     chosen = kind or default_material(surface=shell, blended=True).kind
     made_of = material_class(chosen)

@@ -9,7 +9,7 @@ from ..pictures import render_row
 from ..reduction import InterpolationModel
 from .blend_shape import BlendedShape
 
-MOST = 7  # most shapes of a path that are shown
+MOST = 7  # largest number of shapes of a path that are shown
 
 
 def blend_picture(

@@ -5,12 +5,12 @@ from __future__ import annotations
 from ..problem import PosingProblem
 from .console import notice
 
-#: Translations of so many diagonals tear any body.
+#: Translations of this many diagonals tear any body.
 _MOST = 2.0
 
 
 def notice_wide_box(problem: PosingProblem) -> None:
-    """A notice if handles move by more than two diagonals, as with another unit of length."""
+    """A notice if handles move by more than two diagonals, as with a wrong unit of length."""
     farthest = float(problem.domain.bounds[:, :3].max())
     diagonal = problem.mesh.diagonal
     if farthest <= _MOST * diagonal:

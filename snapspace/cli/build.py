@@ -46,8 +46,8 @@ DIMENSION = 40
     "from_file",
     type=FILE,
     metavar="OLD.snapspace",
-    help="A model of the same mesh with other handles. The first model is made of its shapes, in a "
-    "fraction of the time, and is kept if it meets --target-error.",
+    help="A model of the same mesh with other handles. The first model is made from its shapes, in "
+    "a fraction of the time, and is kept if it meets --target-error.",
 )
 @choice_options(samples=300, dimension=DIMENSION, sampling="sobol", samplings=MOTION_SAMPLINGS)
 @click.option(
@@ -57,14 +57,14 @@ DIMENSION = 40
     show_default=True,
     help="Reduced energy. exact: a quartic, for St.Venant-Kirchhoff, up to about 60 modes. "
     "cubature: a sum over a few tets, for all materials; its samples are solved more tightly. "
-    "auto: exact if the material has it, up to 48 modes.",
+    "auto: exact if the material allows it, up to 48 modes.",
 )
 @click.option(
     "--tets",
     type=TET_COUNT,
     metavar="N",
-    help="Number of tets, or triangles and hinges, of a cubature [default: 8 per mode, beyond "
-    "1000 tets 6.5; of a shell 12, at most 1500].",
+    help="Number of tets, or triangles and hinges, of a cubature [default: 8 per mode, but at "
+    "most the larger of 1000 and 6.5 per mode; for a shell 12 per mode, at most 1500].",
 )
 @shell_option
 @click.option("--repair", is_flag=True, help="Repair the mesh if it can be repaired.")
@@ -94,8 +94,8 @@ def build(
 
     Samples and dimension follow from the error of unseen motions, see --target-error, unless you
     give them. MESH, tets or a surface, replaces the mesh that the problem file names. A surface is
-    filled with tets, or is a thin shell with --shell. Ctrl-C keeps the finished samples beside the
-    model; the same command resumes from there.
+    filled with tets, or with --shell becomes a thin shell. Ctrl-C keeps the finished samples beside
+    the model; the same command resumes from there.
 
     \b
     Examples:

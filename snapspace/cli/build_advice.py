@@ -18,14 +18,14 @@ from .mesh_info import SLIVER
 from .outliers import notice_outliers
 from .pipeline import Built
 
-#: Samples in which inverted tets are looked for.
+#: Number of samples in which inverted tets are counted.
 LOOKED_AT = 8
 
 Suggestions = list[tuple[str, list[str | Path]]]
 
 
 def build_advice(built: Built, *, folders: Sequence[Path], threads: int | None) -> Suggestions:
-    """Prints notices about errors of unseen samples and inverted tets, with the cure.
+    """Prints notices about errors of unseen samples and about inverted tets, with the cure.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def build_advice(built: Built, *, folders: Sequence[Path], threads: int | None) 
     _notice_inverted_frames(built.validation)
     if isinstance(built.model.problem, PosingProblem):
         notice_outliers(built.validation)
-    if "accurate" in built.model.provenance:  # its error is reported already
+    if "accurate" in built.model.provenance:  # the error is reported already
         return []
     return _error_advice(built, built.validation, folders, threads)
 

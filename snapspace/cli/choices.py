@@ -23,7 +23,7 @@ Sampling = Method | Literal["greedy"]
 #: Sampling methods for handle motions, and for weights of poses.
 MOTION_SAMPLINGS: tuple[Sampling, ...] = (*ANYWHERE, "greedy")
 WEIGHT_SAMPLINGS: tuple[Sampling, ...] = (*METHODS, "greedy")
-# From this many poses on, uniform blends say little about blends of two: docs/notes/sampling.md.
+# From this many poses on, uniform blends cover blends of two poorly: docs/notes/sampling.md.
 _MANY_POSES = 5
 
 
@@ -63,7 +63,7 @@ class Choices:
         )
 
     def _check_solver(self) -> None:
-        """ValueError for an option that cannot act with the chosen solver."""
+        """ValueError for an option that has no effect with the chosen solver."""
         given = {option.opts[0] for option in chosen_parameters()}
         idle = {"--settling"} if self.solver == "newton" else {"--projection", "--clamp"}
         for word in sorted(given & idle):
@@ -71,7 +71,7 @@ class Choices:
             raise ValueError(f"{word} is for --solver {solver}; leave it out, or change the solver")
 
     def check_clamp(self, usual: Projection) -> None:
-        """ValueError for --clamp without the projection it is of; `usual` is the default one."""
+        """ValueError for --clamp without its projection; `usual` is the default projection."""
         given = {option.opts[0] for option in chosen_parameters()}
         projection = self.projection or usual
         if "--clamp" in given and projection != "stretches":
@@ -192,7 +192,7 @@ def _options(
             "--sampling",
             type=click.Choice(samplings),
             default=sampling,
-            show_default=sampling or "grid for two poses, blends for five or more, else sobol",
+            show_default=sampling or "grid for two poses, blends for five or more, otherwise sobol",
             help=_sampling_help(samplings),
         ),
         click.option("--no-scramble", is_flag=True, help="Use the plain Sobol sequence."),
@@ -201,7 +201,7 @@ def _options(
             type=SEED_NUMBER,
             default=0,
             show_default=True,
-            help="Seed of the samples; a grid has none.",
+            help="Seed of the samples; a grid does not use it.",
         ),
         click.option(
             "--solver",
@@ -215,15 +215,16 @@ def _options(
             "--tolerance",
             type=float,
             help="Converged if the expected decrease is below this share of the energy "
-            "[default: 1e-9 for interpolation, 1e-7 for a cubature, less for Poisson ratios above "
-            "0.25, but 1e-5 with St.Venant-Kirchhoff, and else --settling decides].",
+            "[default: 1e-9 for interpolation; for posing with a cubature 1e-7, less for Poisson "
+            "ratios above 0.25, but 1e-5 with St.Venant-Kirchhoff and 1e-6 for shells; otherwise "
+            "--settling decides].",
         ),
         click.option(
             "--settling",
             type=SHARE_OR_NONE,
             help="Converged if 8 directions as long as the last 4 together are below this share of "
             "the displacement [default: 0.01 for an exact energy of posing without --tolerance, "
-            "else 0: never].",
+            "otherwise 0: never].",
         ),
         click.option(
             "--max-iterations",
@@ -236,14 +237,14 @@ def _options(
             "--projection",
             type=click.Choice(PROJECTIONS),
             help="Newton: how Hessians of tets become positive semi-definite [default: stretches, "
-            "as in the paper, with St.Venant-Kirchhoff, else clamp].",
+            "as in the paper, with St.Venant-Kirchhoff, otherwise clamp].",
         ),
         click.option(
             "--clamp",
             type=float,
             default=SolverOptions.clamp,
             show_default=True,
-            help="Newton with the projection stretches: least singular value, in (0, 1].",
+            help="Newton with the projection stretches: smallest singular value, in (0, 1].",
         ),
         click.option("--lumped", is_flag=True, help="Use a diagonal mass matrix."),
         click.option(
@@ -253,7 +254,7 @@ def _options(
 
 
 def _sampling_help(samplings: tuple[Sampling, ...]) -> str:
-    text = "Method. greedy: where the current model is worst; fewer samples, more time each."
+    text = "Sampling. greedy: where the current model is worst; fewer samples, more time each."
     if "blends" in samplings:
         text += " blends: two and three poses first; the others: all poses, uniformly."
     return text

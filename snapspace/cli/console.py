@@ -31,17 +31,17 @@ def notice(message: str) -> None:
 
 
 def one_line(message: str) -> str:
-    """The message without line breaks, and with characters a terminal would act on escaped."""
+    """The message without line breaks, with control characters of terminals escaped."""
     return printable(" ".join(line.strip() for line in message.splitlines() if line.strip()))
 
 
 def print_json(content: dict[str, Any]) -> None:
-    """Prints the result as one JSON object on standard output; not finite numbers are null."""
+    """Prints the result as one JSON object on standard output; non-finite numbers are null."""
     click.echo(json.dumps(_finite(content), indent=2, allow_nan=False))
 
 
 def print_table(table: Table) -> None:
-    """Prints a table on standard error, in a file or pipe without spaces that end its lines."""
+    """Prints a table on standard error; in a file or pipe without trailing spaces."""
     screen = console()
     if screen.is_terminal:
         screen.print(table)
@@ -66,7 +66,7 @@ def print_facts(title: str, facts: Iterable[tuple[str, str]]) -> None:
 
 
 def print_next(commands: Iterable[tuple[str, Sequence[str | Path]]]) -> None:
-    """Prints what to try next, with commands that can be copied; nothing without any."""
+    """Prints suggestions with commands that can be copied; nothing if there are none."""
     given = list(commands)
     if given:
         click.echo("next:", err=True)

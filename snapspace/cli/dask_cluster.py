@@ -45,7 +45,7 @@ def _client(address: str) -> Any:
     need_extra("dask", who="--dask")
     distributed: Any = import_module("distributed")
     with warnings.catch_warnings():
-        # it would print a table of all packages; those that matter are checked below
+        # dask would print a table of all packages; the relevant ones are checked below
         warnings.simplefilter("ignore", distributed.versions.VersionMismatchWarning)
         try:
             return distributed.Client(address, timeout=CONNECT_SECONDS, set_as_default=False)
@@ -71,7 +71,7 @@ def _check_workers(client: Any, address: str) -> None:
                 f"--dask {address}: worker {name} has {has}, but this is snapspace {__version__}; "
                 "install the same on all workers"
             )
-    # a worker that is lost by now gives no answer, but no samples either
+    # a worker that is lost meanwhile gives no answer, but no samples either
     for name, built_for in sorted(client.run(core_level, on_error="ignore").items()):
         if built_for != level:
             notice(

@@ -1,4 +1,4 @@
-"""EnergyChoice: what the reduced energy needs, checked before samples are solved."""
+"""EnergyChoice: requirements of the reduced energy, checked before samples are solved."""
 
 from __future__ import annotations
 
@@ -46,5 +46,5 @@ class EnergyChoice:
             raise ValueError(f"{word} is {self.tets}, but the mesh has only {most}; give fewer")
 
     def tolerance(self, problem: PosingProblem) -> float | None:
-        """As `training_tolerance`; for an unknown dimension that of the smallest."""
+        """As `training_tolerance`; for an unknown dimension, that of the smallest dimension."""
         return training_tolerance(problem, self.dimension or 1, self.energy)

@@ -9,7 +9,8 @@ import numpy as np
 from ..pictures import Curve, chart, save_png
 from ..validation import ErrorCurve
 
-#: Errors are at least this, since a logarithmic axis cannot show zero; it is rounding.
+#: Smallest error that is drawn: of the size of rounding errors, since a logarithmic axis has no
+#: zero.
 LEAST = 1e-16
 
 

@@ -15,10 +15,10 @@ FloatArray = NDArray[np.float64]
 
 #: Steps of the trace per frame; lengths between its points are interpolated.
 FINER = 2
-#: A motion of more than this many even steps that no step of the weights divides is a jump.
+#: A motion of more than this many even steps is a jump if no step of the weights divides it.
 JUMP = 4
-#: A jump is a turn of the whole body if no more than this share of its motion, and no jump, is left
-#: once the two shapes are placed on each other.
+#: A jump is a turn of the whole body if at most this share of its motion, and no jump, is left once
+#: the two shapes are registered.
 TURN = 0.25
 
 
@@ -36,7 +36,7 @@ class PathJump:
     """The shape jumps at `weights`, before frame number `frame`.
 
     motion : largest motion of a vertex
-    deformation : the same once the two shapes are placed on each other
+    deformation : the same once the two shapes are registered
     turns : whether the body only turns as a whole, so that little is left of the motion
     """
 
@@ -63,7 +63,7 @@ class Leg:
     lengths : (len(places),), how far the shape has moved at each point; jumps do not count, so no
         frame lies inside one
     jumps : jumps of the shape
-    farthest : the longest motion that is no jump
+    farthest : the longest motion that is not a jump
     """
 
     places: list[PathPoint]
@@ -76,7 +76,8 @@ def even_path(model: InterpolationModel, session: BlendingSession, frames: int) 
     """`frames` shapes of even motion, from the first pose through all poses to the last.
 
     The largest motion of a vertex is the same from frame to frame. With at least as many frames as
-    poses every pose is a frame, so steps of different legs differ by rounding to whole steps.
+    poses every pose is a frame, so steps of different legs differ slightly: each leg has a whole
+    number of steps.
     """
     legs = _traced(model, session, frames)
     poses = len(legs) + 1
@@ -105,7 +106,7 @@ def even_path(model: InterpolationModel, session: BlendingSession, frames: int) 
 
 
 def _deformation(model: InterpolationModel, jump: Jump) -> float:
-    """The largest motion of a vertex in a jump, once the two shapes are placed on each other."""
+    """The largest motion of a vertex in a jump, once the two shapes are registered."""
     subspace = model.subspace
     before, after = (
         subspace.tau + subspace.basis[:, : len(place.q)] @ place.q

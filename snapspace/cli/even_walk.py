@@ -12,11 +12,11 @@ FloatArray = NDArray[np.float64]
 
 #: Shortest step; one that still moves the shape too far is not halved again.
 LEAST_STEP = 1e-4
-#: Longest step, for example where the shape rests.
+#: Longest step, for example where the shape does not move.
 MOST_STEP = 0.25
 #: Accepted motions of a step, relative to an even step.
 SMALL, LARGE = 0.8, 1.25
-#: How often one step may grow: a pace that is too slow is corrected over a few steps.
+#: How often one step may grow; a pace that is too slow is corrected over a few steps.
 GROWTHS = 3
 
 
@@ -52,9 +52,9 @@ class Jump:
 class EvenWalk:
     """Walks from share 0 to 1, with a motion of about `even` in each step.
 
-    A step solves once or twice if the shape moves smoothly. A step that moves it too far is halved,
-    down to LEAST_STEP, so no step solves more than 18 times. If the shape still moves farther than
-    `jump`, this is a jump: the energy has no minimum in between.
+    A step solves once or twice if the shape moves smoothly. A step that moves the shape too far is
+    halved, down to LEAST_STEP, so no step solves more than 18 times. If the shape still moves
+    farther than `jump`, this is a jump: the energy has no minimum in between.
     """
 
     def __init__(
@@ -88,7 +88,7 @@ class EvenWalk:
                 if far.share - near.share <= 1.001 * LEAST_STEP:
                     return self._cross(start, near, far)
                 middle = (near.share + far.share) / 2
-                # at first as if it moved evenly; a jump does not, and is halved
+                # at first as if the shape moved evenly; a jump does not, and is halved
                 share = within((share - start.share) * even / motion) if is_first else middle
                 if not near.share < share < far.share:
                     share = middle
@@ -106,7 +106,7 @@ class EvenWalk:
         if gap <= self._jump:
             self._go(far, self._path.motion(start.q, far.q))
             return None
-        self._go(near, self._path.motion(start.q, near.q))  # a jump says nothing about the pace
+        self._go(near, self._path.motion(start.q, near.q))  # a jump does not show the pace
         self.at = far
         return Jump(near, far, gap)
 

@@ -1,4 +1,4 @@
-"""A fault of snapspace itself: the traceback goes to a file, and one line to the user."""
+"""A bug in snapspace itself: the traceback goes to a file, and one line to the user."""
 
 from __future__ import annotations
 

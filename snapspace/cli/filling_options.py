@@ -48,13 +48,13 @@ def filling_options(command: Command) -> Command:
 
 
 def check_installed(filling: SurfaceFilling) -> None:
-    """ValueError if fTetWild is asked for and not installed."""
+    """ValueError if fTetWild is requested but not installed."""
     if filling.exact:
         need_extra("fill", who="--exact")
 
 
 def check_unfilled(filling: SurfaceFilling, why: str) -> None:
-    """ValueError if the user chose how a surface is filled, and none is."""
+    """ValueError if the user chose how a surface is filled, but no surface is filled."""
     if filling != SurfaceFilling():
         word = "--exact" if filling.exact else "--edge-length"
         raise ValueError(f"{word} is for filling a surface with tets, but {why}; leave it out")
@@ -87,7 +87,7 @@ def filled(file: SurfaceFile, filling: SurfaceFilling) -> tuple[TetMesh, bool]:
 
 @contextmanager
 def naming_shells(vertices: FloatArray, faces: IndexArray) -> Iterator[None]:
-    """Adds to an error of filling that an open surface may be a shell."""
+    """Adds to an error of filling that an open surface can be a shell."""
     try:
         yield
     except ValueError as error:

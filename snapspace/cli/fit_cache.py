@@ -22,14 +22,14 @@ from ..snapshots import CheckpointNotice
 
 FloatArray = NDArray[np.float64]
 Settings = dict[str, Any]
-# Errors that content raises which this version did not write.
+# Errors raised by content that another version wrote.
 _UNREADABLE = (KeyError, TypeError, ValueError)
 
 
 class FitCache:
     """A folder with one file for the tets and one for each fitted pose, named by their inputs.
 
-    A file is complete or absent, and has a checksum. A damaged one is made again, with a
+    A file is complete or absent, and has a checksum. A damaged file is made again, with a
     `CheckpointNotice`.
     """
 

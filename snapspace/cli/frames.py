@@ -21,7 +21,7 @@ FORMATS = tuple(
 
 
 def frame_options(*, files: str, rate: str) -> Callable[[Command], Command]:
-    """Adds --format and --fps; `files` and `rate` say in the help what they are for."""
+    """Adds --format and --fps; `files` and `rate` complete their help texts."""
 
     def add(command: Command) -> Command:
         command = click.option(
@@ -82,7 +82,7 @@ def _check_folder(output: Path) -> None:
 
 
 def notice_old_frames(folder: Path, frames: int, *, suffix: str) -> None:
-    """Prints a notice if frames of an earlier path stay: of a longer one, or in other formats."""
+    """Prints a notice if frames of an earlier path remain: of a longer one, or in other formats."""
     found = [path for path in folder.glob("frame-*.*") if _number(path) >= 0]
     longer = [path for path in found if path.suffix == suffix and _number(path) >= frames]
     if longer:

@@ -8,14 +8,14 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
-#: Options that say where and how to work, and not what to build.
+#: Options that say where and how to work, but not what to build.
 _HOW = {"--threads", "--dask", "--json"}
 
 
 def given_options() -> dict[str, Any]:
     """Options on the command line with their values, without files and folders.
 
-    Together with the names of the files they make the same model again. A flag has the value true.
+    Together with the names of the files they reproduce the model. A flag has the value true.
     """
     given: dict[str, Any] = {}
     for option in chosen_parameters():

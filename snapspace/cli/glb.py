@@ -1,4 +1,4 @@
-"""glTF files and Blender scripts of the command line, with lines that say how far they are off."""
+"""glTF files and Blender scripts of the command line, with lines about their errors."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .console import notice
 from .units import in_bytes
 
 FloatArray = NDArray[np.float64]
-#: Targets of a path: many engines draw no more.
+#: Largest number of targets for a path; many engines support no more.
 FEW = 8
 
 
@@ -50,7 +50,7 @@ def write_path(
 def write_model(
     output: Path, model: ReducedModel, *, targets: int | None, name: str, up: str | None
 ) -> dict[str, Any]:
-    """Writes a model with all modes, or with some targets fitted to its samples; the figures."""
+    """Writes a model with all modes, or with targets fitted to its samples; returns the figures."""
     morphs = _targets(model, targets)
     write_glb(output, model, morphs, name=name, up=up)
     notice(described(output, model, morphs))
@@ -65,7 +65,7 @@ def write_model(
 def write_script(
     output: Path, model: ReducedModel, *, targets: int | None, name: str, up: str | None
 ) -> dict[str, Any]:
-    """Writes a script that makes the model's modes shape keys in Blender; the figures."""
+    """Writes a script that makes the model's modes shape keys in Blender; returns the figures."""
     morphs = _targets(model, targets)
     write_blender(output, model, morphs, name=name, up=up)
     notice(f"{described(output, model, morphs)}; run it in Blender's text editor")

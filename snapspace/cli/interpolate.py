@@ -56,8 +56,8 @@ SAMPLES, DIMENSION = 40, 30
 @click.option(
     "--deviation",
     type=SHARE,
-    help="Rms distance at which surface fits end, relative to the diagonal; a larger one is "
-    f"softer [default: {DEVIATION:g}].",
+    help="Rms distance at which surface fits end, relative to the diagonal; a larger one fits "
+    f"less tightly [default: {DEVIATION:g}].",
 )
 @shell_option
 @click.option(
@@ -65,8 +65,8 @@ SAMPLES, DIMENSION = 40, 30
     type=click.Choice(SCALE_POLICIES),
     default="auto",
     show_default=True,
-    help="Bring poses to the size of the first: always (match), never (keep), or where the factor "
-    "is so large that the unit of length must differ (auto).",
+    help="Scale poses to the size of the first: always (match), never (keep), or if the factor is "
+    "so large that the unit of length must differ (auto).",
 )
 @click.option(
     "--accept-inverted", is_flag=True, help="Accept inverted tets in poses after the first."
@@ -79,7 +79,7 @@ SAMPLES, DIMENSION = 40, 30
     type=click.FloatRange(min=0.0),
     default=0.0,
     show_default=True,
-    help="Sample a simplex that is larger by this share.",
+    help="Enlarge the sampled simplex by this share.",
 )
 @material_options
 @target_option(BLENDS.target, error="Mean error of unseen blends", deciding=BLENDS_DECIDING)
@@ -88,7 +88,7 @@ SAMPLES, DIMENSION = 40, 30
     type=TET_COUNT,
     metavar="N",
     help="Number of tets of the reduced energy, a sum over a few tets [default: 15 per mode, at "
-    "most 1000; of arap with --shell 8 vertices per mode].",
+    "most 1000; for arap with --shell 8 vertices per mode].",
 )
 @choice_options(samples=SAMPLES, dimension=DIMENSION, sampling=None, samplings=WEIGHT_SAMPLINGS)
 @click.option("--repair", is_flag=True, help="Repair the mesh of --tets if it can be repaired.")
@@ -123,8 +123,8 @@ def interpolate(
 
     Poses are surfaces (.obj, .off, .ply) with the same faces, or tet meshes (.mesh, .msh, ...) with
     the same tets; vertex i of all poses is the same point of the object. Each pose may have its own
-    frame. Surfaces are filled with tets in the first pose, and the tets are fitted to the others;
-    with --shell they are blended as they are, also open ones.
+    frame. Surfaces are filled with tets in the first pose, and the tets are fitted to the others.
+    With --shell the surfaces themselves are blended, open or closed.
 
     Samples and dimension follow from the error of unseen blends (--target-error), unless given.
 

@@ -16,7 +16,7 @@ def load_leading(path: Path, dimension: int | None) -> PosingModel | Interpolati
 def leading_of(
     model: PosingModel | InterpolationModel, path: Path, dimension: int | None
 ) -> PosingModel | InterpolationModel:
-    """A loaded model with its first `dimension` modes, or as it is if that is None."""
+    """A loaded model with its first `dimension` modes, or with all modes if that is None."""
     if dimension is None:
         return model
     if dimension > model.dimension:

@@ -49,8 +49,8 @@ def snapspace(ctx: click.Context) -> None:
 
     With --json a command prints one JSON object on standard output; everything else goes to
     standard error. Exit codes: 0 done, 1 a fault of snapspace, or one that `check` found, 2 a
-    mistake in the input, 130 interrupted (Ctrl-C), 143 terminated (SIGTERM). Both keep what is
-    finished.
+    mistake in the input, 130 interrupted (Ctrl-C), 143 terminated (SIGTERM). After the last two,
+    finished work is kept.
     """
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())
@@ -60,8 +60,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the program and returns its exit code.
 
     Mistakes of the user (ValueError from the library, wrong usage) become one line on standard
-    error. Anything else is a fault of Snapspace: also one line, which names a file with the
-    traceback. SIGTERM ends commands as Ctrl-C does.
+    error. Anything else is a bug in Snapspace: it also becomes one line, which names a file with
+    the traceback. SIGTERM ends commands as Ctrl-C does.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
     with terminated_as_interrupted() as termination:
@@ -89,7 +89,7 @@ def _run(words: list[str]) -> int:
     except click.Abort:
         raise
     except BrokenPipeError:
-        # the reader is gone; Python would report that again when it closes the pipe
+        # the pipe's reader is gone; Python would report that again when it closes the pipe
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return BROKEN_PIPE
     except Exception as error:

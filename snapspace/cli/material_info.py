@@ -8,7 +8,7 @@ import numpy as np
 
 from ..material import MATERIALS, Material
 
-#: The model, and moduli by name: one number, or the least and the largest of all tets.
+#: The model, and moduli by name: one number, or the smallest and the largest over all tets.
 Figures = dict[str, Any]
 
 

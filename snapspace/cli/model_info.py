@@ -80,7 +80,7 @@ def energy_text(model: ReducedModel) -> str:
 
 
 def _clusters_text(energy: Cubature | BlendedSum) -> str:
-    """What its local coordinates are, after its number of tets; empty without them."""
+    """Text about its local coordinates, which follows the number of tets; empty without them."""
     if isinstance(energy, BlendedStars) or not isinstance(energy.stored_rows, LocalRows):
         return ""
     ranks = energy.stored_rows.sizes[:, 1]

@@ -80,9 +80,9 @@ def as_parameters(
 ) -> tuple[FloatArray, FloatArray]:
     """Parameters (dimension,) of the same deformation, and a rigid map (3, 4) of the result.
 
-    The map is the motion of the first handle: only motions relative to it deform. If the first
-    handle does not move, the map is the identity and the parameters are the motions themselves.
-    ValueError for an unknown handle.
+    The map is the motion of the first handle, since only motions relative to it deform the body. If
+    the first handle does not move, the map is the identity and the parameters are the motions
+    themselves. ValueError for an unknown handle.
     """
     wanted = np.zeros((len(problem.handles), 6))
     for name, motion in motions.items():
@@ -97,7 +97,7 @@ def as_parameters(
     shift = centers[0] + wanted[0, :3] - turn.apply(centers[0])
     places = turn.inv().apply(centers[1:] + wanted[1:, :3] - shift)
     with warnings.catch_warnings():
-        # at a pitch of 90 degrees the angles are not unique; any of them are right
+        # at a pitch of 90 degrees the angles are not unique; any solution is right
         warnings.filterwarnings("ignore", message="Gimbal lock")
         angles = (turn.inv() * turns[1:]).as_euler("xyz")
     carrier = np.column_stack([turn.as_matrix(), shift])

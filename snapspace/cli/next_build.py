@@ -17,7 +17,7 @@ from .target_error import MOTIONS_DECIDING, option_word
 
 Model = PosingModel | InterpolationModel
 
-#: The wanted error, relative to the current one.
+#: The target error, relative to the current one.
 BETTER = 0.5
 _DECIDING = set(map(option_word, MOTIONS_DECIDING))
 
@@ -36,9 +36,9 @@ def next_build(
     error : float
         Typical error at unseen parameters, the median of motions or the mean of blends.
     file : Path
-        The model's file. The next one is written beside it, and its input is looked for there.
+        The model's file. The next model is written beside it, and its input is searched for there.
     folders : sequence of Path
-        Further folders of the input, besides the file's folder and the current one.
+        Further folders to search for the input, besides the file's folder and the current one.
     """
     record = model.provenance
     inputs = _inputs(record, [*folders, file.parent, Path()])
@@ -83,7 +83,7 @@ def _found(name: str, folders: Sequence[Path]) -> Path | None:
 def _options(
     option: NextOption, model: Model, error: float, given: dict[str, Any]
 ) -> dict[str, Any]:
-    """The model's options, changed as the advice says."""
+    """The model's options with the changes of the advice."""
     given.pop("--budget", None)
     blends = isinstance(model, InterpolationModel)
     tets = "--cubature-tets" if blends else "--tets"
@@ -105,7 +105,7 @@ def _options(
 
 
 def _can_aim(model: Model, given: dict[str, Any]) -> bool:
-    """Whether --target-error may help: not if it failed before or is not possible."""
+    """Whether --target-error may help: not if it failed before, or is not available."""
     accurate = model.provenance.get("accurate")
     failed = isinstance(accurate, dict) and not accurate.get("reached", False)
     exact = is_quartic(model.problem)

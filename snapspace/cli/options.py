@@ -20,7 +20,7 @@ MODE_COUNT = click.IntRange(1, 10_000)
 TET_COUNT = click.IntRange(1, 2**31 - 1)
 ITERATION_COUNT = click.IntRange(1, 2**31 - 1)
 THREAD_COUNT = click.IntRange(1, 1024)
-# Shares, such as errors relative to a displacement; of one or more they would mean nothing.
+# Shares, such as errors relative to a displacement; values of one or more would mean nothing.
 SHARE = click.FloatRange(0, 1, min_open=True, max_open=True)
 SHARE_OR_NONE = click.FloatRange(0, 1, max_open=True)
 SEED_NUMBER = click.IntRange(0, 2**63 - 1)
@@ -129,7 +129,7 @@ def shell_option(command: Command) -> Command:
         "thickness",
         type=click.FloatRange(min=0, min_open=True),
         metavar="THICKNESS",
-        help="Take a surface as a thin shell of this thickness, in its unit of length, instead of "
-        "filling it. It may be open. It bends by its thickness if it is of another material than "
-        "the usual one, arap, which is as rigid as possible.",
+        help="Make a surface a thin shell of this thickness, in its unit of length, instead of "
+        "filling it. The surface may be open. The thickness determines how it bends, except with "
+        "the default material arap, as rigid as possible.",
     )(command)

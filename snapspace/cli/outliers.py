@@ -8,18 +8,19 @@ from ..validation import Validation
 from .console import notice
 from .units import in_percent
 
-#: A mean error is looked at above this value, and above so many medians.
+#: A mean error is examined above this value, and above this many medians.
 _MEAN, _MEDIANS = 0.02, 3.0
-#: Motions with this error look wrong. Where the subspace has a tenth of it, it is not the cause.
+#: Motions with this error look wrong. If the projection error is a tenth of it, the subspace is not
+#: the cause.
 _FAR, _SHARE = 0.1, 0.1
 
 
 def notice_outliers(validation: Validation) -> None:
-    """A notice if a few motions are far off while the median is small, with the likely cause.
+    """A notice if a few motions have large errors while the median is small, with the likely cause.
 
-    A thin part that is pressed together snaps to one of several sides, and its energy has a minimum
-    for each. Reduced and full solution may then be at different ones, which a better model does not
-    change.
+    A thin part under compression buckles to one of several sides, and the energy has a minimum for
+    each. Reduced and full solution may then be at different minima, and a better model does not
+    change that.
     """
     errors = validation.error
     mean, far = float(errors.mean()), errors > _FAR

@@ -35,7 +35,7 @@ def surface_option(command: Command) -> Command:
 
 
 def with_surface(model: Model, file: Path | None) -> Model:
-    """The model with the surface of --surface, or as it is.
+    """The model with the surface of --surface, or unchanged.
 
     ValueError if the file cannot be read, or lies too far from the tets.
     """
@@ -43,7 +43,7 @@ def with_surface(model: Model, file: Path | None) -> Model:
         return model
     source = open_surface(file).compact()
     try:
-        # the tets carry along what lies near them, such as clothes
+        # whatever lies near the tets, such as clothes, follows them
         mesh = solid_of(model.problem.mesh, who="--surface")
         return replace(model, surface=embed_file(source, mesh, farthest=0.1))
     except ValueError as error:
@@ -53,7 +53,7 @@ def with_surface(model: Model, file: Path | None) -> Model:
 def check_own_output(
     model: ReducedModel, output: Path | None, kind: str | None, *, path: bool
 ) -> None:
-    """Says what a format keeps of the user's surface; ValueError for one that only a source has.
+    """Says what a format keeps of the user's surface; ValueError for a format that needs a source.
 
     Parameters
     ----------
@@ -118,7 +118,7 @@ def check_up(
 
 
 def _suffix(model: ReducedModel, output: Path, kind: str | None, *, path: bool) -> str:
-    """The extension of what is written: of the output, or of the files in it."""
+    """The extension of the written files: of the output, or of the files in it."""
     if path and not is_film(output):
         return shape_suffix(model, kind)
     return output.suffix.lower()

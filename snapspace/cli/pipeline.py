@@ -78,7 +78,7 @@ def build_model(
 ) -> Built:
     """Solves the samples, makes the reduced model, measures its errors and writes its file.
 
-    Finished samples are in a folder beside `output` until the file is written; the same call
+    Finished samples are stored in a folder beside `output` until the file is written; the same call
     resumes from them.
 
     Parameters
@@ -98,8 +98,8 @@ def build_model(
     Raises
     ------
     ValueError
-        If the energy is not possible, the basis cannot be made, or the first frame of the model is
-        not finite; then the samples are kept.
+        If the material does not allow the energy, the basis cannot be made, or the first frame of
+        the model is not finite; the samples are kept then.
     KeyboardInterrupt
         On Ctrl-C, with a line that says how many samples are kept.
     """
@@ -143,7 +143,7 @@ def build_model(
 
 @contextmanager
 def report_kept_samples(finished: Callable[[], tuple[int, int]]) -> Iterator[None]:
-    """On Ctrl-C in this block says how many samples are kept, of how many: `finished()`."""
+    """On Ctrl-C in this block, says how many samples are kept and how many there are."""
     try:
         with ctrl_c_as_itself():
             yield

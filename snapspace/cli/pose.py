@@ -61,7 +61,7 @@ from .write_frames import handle_colors, write_frames
 )
 @path_options
 @surface_option
-@click.option("--png", type=FILE, metavar="FILE", help="Also a picture, with the handles tinted.")
+@click.option("--png", type=FILE, metavar="FILE", help="Also write a picture with tinted handles.")
 @up_option
 @leading_option
 @json_option

@@ -47,9 +47,9 @@ class PoseOptions:
     tets : file with the tets of the first pose's surface; None fills the surface
     edge_length : edge length of the tets that fill it, relative to the diagonal; None for the
         default
-    deviation : rms distance from the surfaces that fits aim at, relative to the diagonal; None for
-        the default
-    thickness : of surfaces that are used as shells; None fills them
+    deviation : goal for the rms distance between fits and surfaces, relative to the diagonal; None
+    for the default
+    thickness : thickness of surfaces that are used as shells; None fills them
     scale : when to scale poses to the size of the first one
     accept_inverted : whether inverted tets in a pose are accepted
     repair : whether to repair faults of the mesh of --tets
@@ -117,7 +117,7 @@ def read_poses(files: Sequence[Path], options: PoseOptions, cache: FitCache) -> 
 
 
 def pose_names(files: Sequence[Path]) -> list[str]:
-    """The files' names without extension, with their folder or number if these are equal."""
+    """The files' names without extension, with folder or number if names are equal."""
     for names in (
         [file.stem for file in files],
         [f"{file.parent.name}/{file.stem}" for file in files],
@@ -161,7 +161,8 @@ def _from_surfaces(
     seconds: dict[str, float] = {}
     begin = time.perf_counter()
     mesh = _tets_of(targets[0], faces, options, cache)
-    # tets that were made in the surface carry all of it, also small parts that filling left out
+    # if the tets were made in the surface, all of it follows them, even small parts that filling
+    # left out
     farthest = WHOLE_DIAGONAL if options.tets is None else 0.02
     embedded = embed_surface(targets[0], faces, mesh, farthest=farthest)
     surface = replace(embedded, source=open_surface(files[0]))
@@ -255,6 +256,6 @@ def _fitted(
                 f"{len(found)} of {len(targets)} fitted poses are kept; the same command "
                 "resumes from there"
             ) from None
-    # names are those of this run: the same target may have had another name
+    # names are those of this run, since the same target may have had another name
     fits = [replace(found[number][1], name=name) for number, name in enumerate(names)]
     return np.stack([found[number][0] for number in range(len(targets))]), fits

@@ -79,5 +79,5 @@ def posed_path(model: PosingModel, motions: Mapping[str, Motion], frames: int) -
 
 
 def inverted_tets(problem: PosingProblem, shape: FloatArray) -> int | None:
-    """How many tets of a solid a shape inverts; None for a shell."""
+    """Number of inverted tets of a solid in a shape; None for a shell."""
     return problem.energy.inverted_tets(shape) if isinstance(problem.mesh, TetMesh) else None

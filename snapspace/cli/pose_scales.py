@@ -19,7 +19,7 @@ LARGE_CHANGE = 1.05
 def scaled_poses(
     shapes: FloatArray, cells: NDArray[np.int32], names: Sequence[str], *, policy: ScalePolicy
 ) -> FloatArray:
-    """Poses (k, n, 3) of tets or triangles, scaled as the policy says, with a notice for each."""
+    """Poses (k, n, 3) of tets or triangles, scaled by the policy, with a notice for each."""
     scaled, factors = matched_scales(shapes, cells, policy=policy)
     for name, factor in zip(names, factors, strict=True):
         if factor != 1.0:
@@ -30,7 +30,7 @@ def scaled_poses(
 def notice_sizes(
     shapes: FloatArray, cells: NDArray[np.int32], names: Sequence[str], *, policy: ScalePolicy
 ) -> None:
-    """A notice for each pose of another size, which is elastic strain, with --scale auto."""
+    """With --scale auto, a notice for each pose of another size, since that is elastic strain."""
     if policy == "auto":
         for name, factor in zip(names, scale_factors(shapes, cells), strict=True):
             if abs(np.log(factor)) > np.log(LARGE_CHANGE):

@@ -52,7 +52,7 @@ def poses_facts(figures: dict[str, Any]) -> list[tuple[str, str]]:
 def _poses(model: InterpolationModel) -> list[dict[str, Any]]:
     """Name, volume, inverted tets, rms distance from the mean shape relative to the diagonal.
 
-    Also the least and greatest weight for which the model's energy certainly has a minimum, with
+    Also the smallest and largest weight for which the model's energy certainly has a minimum, with
     the other weights equal; None if no test is known, and for an end that does not exist.
     """
     problem = model.problem

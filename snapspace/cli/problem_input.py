@@ -38,9 +38,9 @@ from .filling_options import check_unfilled, filled
 
 @dataclass(frozen=True, kw_only=True)
 class ProblemInput:
-    """What a model is built of.
+    """The input of a build.
 
-    surface : that models show, or None for the boundary of the tets, or a shell's triangles
+    surface : surface that models show; None for the boundary of the tets, or a shell's triangles
     source : names of the files, for the model's provenance
     """
 
@@ -64,21 +64,20 @@ def problem_input(
     ----------
     problem_file : Path
     mesh_file : Path, optional
-        Tets, or a surface, in place of what the problem file names.
+        Tets or a surface, instead of the problem file's own.
     filling : SurfaceFilling
         How a surface is filled, if there are no tets.
     repair : bool
         Whether tets are repaired.
     tets_file : Path
-        Where tets of fTetWild are kept: it makes other ones in each run.
+        Where tets by fTetWild are saved, since they differ from run to run.
     thickness : float, optional
-        Of the shell that the surface becomes. Default: what the problem file says.
+        Thickness of the shell that the surface becomes. Default: the problem file's.
 
     Raises
     ------
     ValueError
-        If a file cannot be read or filled, or the filling is not the usual one and nothing is
-        filled.
+        If a file cannot be read or filled, or a filling is chosen but nothing is filled.
     """
     if mesh_file is None:
         mesh_file = problem_surface_file(problem_file)

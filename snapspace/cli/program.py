@@ -13,9 +13,9 @@ from .main import main
 def program() -> NoReturn:
     """Runs `main` on the command line, and ends the process with its exit code.
 
-    If work that Ctrl-C abandoned still runs, the process ends at once. If that work returned while
-    Python shuts down, Python would end its thread inside compiled code, and that would end the
-    process by a signal.
+    If work that Ctrl-C abandoned still runs, the process ends at once. Otherwise that work might
+    return while Python shuts down; Python would end its thread inside compiled code, and that would
+    kill the process by a signal.
     """
     code = main()
     if abandoned_work_runs():

@@ -24,7 +24,7 @@ _RATE_PERIOD = 600.0
 def step_progress(
     label: str, *, done: int = 0, total: int, unit: str = "samples"
 ) -> Iterator[Report]:
-    """Yields a callable(done, total) to call now and then; `done` steps exist already."""
+    """Yields a callable(done, total) for progress; `done` steps exist already."""
     with _shown(label, done, total, unit) as show:
         yield lambda now, _: show(now, "")
 
@@ -35,8 +35,8 @@ def sample_progress(
 ) -> Iterator[Callable[[SolveProgress], None]]:
     """Yields a `progress` callable for `solve_snapshots`; `done` samples exist already.
 
-    With `training` a model will be made of the samples: it also shows how well those before
-    represent the newest ones.
+    With `training`, for samples of a model, it also shows how well earlier samples represent the
+    newest ones.
     """
     with _shown(label, done, total, "samples") as show:
         yield lambda state: show(state.done, _held_out(state) if training else "")
@@ -50,7 +50,7 @@ def _held_out(state: SolveProgress) -> str:
 
 @contextmanager
 def spinner(label: str) -> Iterator[None]:
-    """Shows what this block does, for work that does not report its progress."""
+    """Shows a text while this block runs, for work that does not report progress."""
     with _displayed(console().status(label)):
         yield
 
@@ -76,7 +76,7 @@ def _shown(label: str, done: int, total: int, unit: str) -> Iterator[Callable[[i
 
 @contextmanager
 def _displayed(display: Progress | Status) -> Iterator[None]:
-    """Starts and stops a display completely: a half-started one leaves the cursor hidden."""
+    """Starts and stops a display completely, since a half-started one leaves the cursor hidden."""
     try:
         with ctrl_c_at_checks():
             display.start()

@@ -27,7 +27,7 @@ class Recipe:
     tets : number of tets of the cubature, None for its default
     lumped, include_unconverged : as for `snapshot_pca`
     threads : number of threads, None for all
-    known : number of solutions that are known without solving, the poses of an interpolation
+    known : number of solutions that are known without solving: the poses of an interpolation
     """
 
     samples: Samples

@@ -34,7 +34,7 @@ class GivenSamples:
         return len(self.parameters)
 
     def key(self, problem: PosingProblem | InterpolationProblem, options: SolverOptions) -> str:
-        """Hash of all that their solutions depend on."""
+        """Hash of everything that their solutions depend on."""
         return run_key(problem, self.parameters, solver_key(options, problem))
 
     def finished(self, checkpoint: Checkpoint) -> int:
@@ -72,7 +72,7 @@ class ChosenSamples:
     dimension: int
 
     def key(self, problem: PosingProblem | InterpolationProblem, options: SolverOptions) -> str:
-        """Hash of all that the choice and its solutions depend on."""
+        """Hash of everything that the choice and its solutions depend on."""
         return greedy_key(problem, options, seed=self.seed, batch=BATCH, candidates=CANDIDATES)
 
     def finished(self, checkpoint: Checkpoint) -> int:

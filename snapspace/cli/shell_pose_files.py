@@ -29,7 +29,7 @@ _OF_TETS = (
 
 
 def check_shell_options(material: str) -> None:
-    """ValueError for options on the command line that do not go with --shell."""
+    """ValueError for options on the command line that contradict --shell."""
     given = {option.opts[-1] for option in chosen_parameters()}
     for name in _OF_TETS:
         if name in given:
@@ -40,7 +40,7 @@ def check_shell_options(material: str) -> None:
     known = [shell.kind for shell in SHELLS]
     if material not in known:
         names = f"{', '.join(known[:-1])} or {known[-1]}"
-        raise ValueError(f"--material {material} has no form for shells; take {names}")
+        raise ValueError(f"--material {material} has no form for shells; use {names}")
 
 
 def read_shell_poses(
@@ -48,12 +48,12 @@ def read_shell_poses(
 ) -> tuple[ShellPoses, EmbeddedSurface]:
     """The poses of two or more surface files with the same faces, and the first one's surface.
 
-    Vertices at one position in the first pose, as at seams of texture coordinates, are one vertex.
+    Vertices at one position in the first pose, as at seams of texture coordinates, become one.
 
     Raises
     ------
     ValueError
-        For a file that is no surface, poses that do not correspond, and as for `ShellPoses`.
+        For a file that is not a surface, poses that do not correspond, and as for `ShellPoses`.
     """
     for file in files:
         if file.suffix.lower() not in SURFACE_INPUTS:

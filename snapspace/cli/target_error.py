@@ -1,4 +1,4 @@
-"""The options --target-error and --budget, and the options that decide in their place."""
+"""The options --target-error and --budget, and the options that replace them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .options import SHARE
 
 Command = TypeVar("Command", bound=Callable[..., object])
 
-#: Options that decide samples or subspace: with any of them nothing is chosen by a target error.
+#: Options that determine samples or subspace; with any of them nothing is chosen by a target error.
 DECIDING = (
     "samples",
     "dimension",
@@ -37,7 +37,7 @@ def option_word(name: str) -> str:
 def target_option(
     default: float, *, error: str, deciding: Sequence[str]
 ) -> Callable[[Command], Command]:
-    """Adds --target-error and --budget; the help says which options decide in their place."""
+    """Adds --target-error and --budget; the help says which options replace them."""
     words = ", ".join(map(option_word, deciding))
 
     def add(command: Command) -> Command:
@@ -45,7 +45,7 @@ def target_option(
             "--budget",
             type=float,
             metavar="SECONDS",
-            help="With --target-error: samples that would probably take longer are not solved. The "
+            help="With --target-error: samples that would probably exceed it are not solved. The "
             "first 96 (44 for blends) always are. The model then depends on the machine's speed.",
         )(command)
         return click.option(
@@ -54,15 +54,15 @@ def target_option(
             default=default,
             show_default=True,
             metavar="SHARE",
-            help=f"{error}. Decides samples and dimension if none of {words} is given, except for "
-            "stvk.",
+            help=f"{error}. Determines samples and dimension, unless one of {words} is given or "
+            "the material is stvk.",
         )(command)
 
     return add
 
 
 def decided_by_hand(*, exact: bool = False, deciding: Sequence[str] = DECIDING) -> bool:
-    """Whether an option or an exact energy, not the target error, decides samples and subspace.
+    """Whether an option or an exact energy, not the target error, determines samples and subspace.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def decided_by_hand(*, exact: bool = False, deciding: Sequence[str] = DECIDING) 
 
 
 def notice_decided(deciding: Sequence[str]) -> None:
-    """Prints which of the options, if any is given, decides in place of the target error."""
+    """Prints which of the options, if any is given, replaces the target error."""
     words = _given_words(deciding)
     if words:
         verb = "decides" if len(words) == 1 else "decide"

@@ -12,9 +12,10 @@ from ..stopping import Termination
 
 @contextmanager
 def terminated_as_interrupted() -> Iterator[Termination]:
-    """In this block SIGTERM raises KeyboardInterrupt; the result says whether it came.
+    """In this block SIGTERM raises KeyboardInterrupt; the result says whether it was received.
 
-    Does nothing on threads other than the main one, or if the signal is ignored or handled already.
+    It does nothing on threads other than the main one, or if the signal is ignored or handled
+    already.
     """
     termination = Termination()
     main = threading.current_thread() is threading.main_thread()

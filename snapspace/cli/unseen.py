@@ -18,17 +18,17 @@ from .progress import sample_progress
 
 Model = TypeVar("Model", bound=PosingModel | InterpolationModel)
 
-#: Number of full solutions that judge a model whose samples and dimension were given. They are
-#: solved as tightly as those of `validate`; each takes two to four times as long as a sample.
+#: Number of full solutions that judge a model with given samples and dimension. They are solved as
+#: tightly as those of `validate`; each takes two to four times as long as a sample.
 COUNT = 8
 
 
 def judged(
     model: PosingModel | InterpolationModel, known: Snapshots | None, *, threads: int | None
 ) -> Validation | None:
-    """Validates with known full solutions, or else with eight new ones; None if none converges.
+    """Validates with known full solutions, or with eight new ones; None if none converges.
 
-    The new ones are at the first parameters of `snapspace validate`, where there are no samples.
+    New solutions are at the first parameters of `snapspace validate`, where there are no samples.
     """
     if known is None:
         try:
@@ -87,7 +87,7 @@ def unseen_record(
 
 
 def _counts(inverted: list[int]) -> dict[str, float]:
-    """How many shapes have inverted tets; their median and largest number in a shape."""
+    """Number of shapes with inverted tets, and their median and largest number in a shape."""
     return {
         "shapes": len(inverted),
         "with_some": sum(count > 0 for count in inverted),

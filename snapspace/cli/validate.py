@@ -168,9 +168,9 @@ def _split(
     fewer: bool,
     threads: int | None,
 ) -> tuple[ErrorSplit | None, Advice | None]:
-    """The parts of the error, if asked for or needed for advice, and the advice.
+    """The parts of the error, if requested or needed for advice, and the advice.
 
-    `fewer` says that the model has fewer modes than its file.
+    `fewer`: whether the model has fewer modes than its file.
     """
     error, least = (float(np.median(e)) for e in (validation.error, validation.projection_error))
     needed = needs_advice(error, least)

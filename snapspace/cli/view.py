@@ -48,7 +48,7 @@ from .options import FILE, leading_option, shell_option, up_option
     default=UPLOAD_LIMIT / 2**20,
     show_default=True,
     metavar="MB",
-    help="Largest size of meshes that are dropped on the page.",
+    help="Largest size of a mesh that is dropped on the page.",
 )
 @shell_option
 @filling_options
@@ -68,16 +68,16 @@ def view(
 ) -> None:
     """Pose or blend a model in the browser, or make one there.
 
-    FILE is a model; or a problem, tets or a surface, to choose handles on and to compute models.
+    FILE is a model, or a problem, tets or a surface on which you choose handles and compute models.
     Without FILE, drop a mesh on the page. A closed surface is first filled with tets, in seconds;
     if it is too thin for quick tets, fTetWild fills it, which takes up to some minutes. An open
-    one is a shell: it stays as it is. The page offers the other of both; --shell makes any surface
-    a shell, --edge-length and --exact fill any.
+    surface becomes a shell. In the page you can choose between filling and a shell; --shell makes
+    any surface a shell, and --edge-length and --exact fill any surface.
 
-    Opens the page, or prints its address if there is no browser; Ctrl-C ends it. Shapes are solved
-    in the page, so it is as fast through a tunnel: `ssh -L 8000:localhost:8000 ...` here and
-    `snapspace view FILE --port 8000` there. With `--host 0.0.0.0` other machines can open it if
-    they know the whole address.
+    The command opens the page, or prints its address if there is no browser; Ctrl-C ends it. Shapes
+    are solved in the page, so it is as fast through a tunnel: `ssh -L 8000:localhost:8000 ...` on
+    this machine and `snapspace view FILE --port 8000` on the other one. With `--host 0.0.0.0` other
+    machines can open the page if they know the whole address.
 
     \b
     Examples:
@@ -134,7 +134,7 @@ def _check_surface_options(
     if thickness is not None and suffix not in SURFACE_SUFFIXES:
         raise ValueError(f"{file}: --shell is for surfaces; a problem file says its own thickness")
     if file is None or filling is None:
-        return  # without FILE they are for what is dropped on the page
+        return  # without FILE they are for a mesh that is dropped on the page
     is_problem = suffix == PROBLEM_SUFFIX
     if thickness is not None or (is_problem and problem_thickness(file) is not None):
         check_unfilled(filling, "a shell is not filled")
@@ -145,7 +145,7 @@ def _check_surface_options(
 
 
 def _body(file: Path, filling: SurfaceFilling | None, thickness: float | None) -> SharedBody:
-    """The body that the page starts with; its file is read now, to show errors here."""
+    """The body that the page starts with. Its file is read now, so that errors appear here."""
     suffix = file.suffix.lower()
     if suffix == PROBLEM_SUFFIX:
         body = problem_body(file, filling=filling)

@@ -1,4 +1,4 @@
-"""Backend: interface of whatever solves the samples of a run, here or elsewhere."""
+"""Backend: the interface for solving the samples of a run, here or elsewhere."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ class Backend(Protocol):
         ...
 
     def running(self) -> dict[int, int]:
-        """Evaluations so far of unfinished samples, by number; only those that are known."""
+        """Evaluations so far of unfinished samples, by number, as far as known."""
         ...
 
     def no_more(self) -> None:
-        """Says that all samples are submitted."""
+        """Declares that all samples are submitted."""
         ...
 
     def cancel(self) -> None:
@@ -37,9 +37,9 @@ class Backend(Protocol):
         ...
 
     def close(self) -> None:
-        """Cancels what is left, and frees everything."""
+        """Cancels unfinished samples, and frees everything."""
         ...
 
     def stop(self, seconds: float) -> list[Solved]:
-        """Cancels, and returns finished samples once solvers have stopped or time is up."""
+        """Cancels, and returns finished samples once solvers have stopped or the time is up."""
         ...

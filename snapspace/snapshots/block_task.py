@@ -55,8 +55,8 @@ class BlockAnswer:
 def solve_block(task: BlockTask) -> BlockAnswer:
     """Solves a block on one thread, in any process of the executor.
 
-    In the run's own process the run's control can end it early, elsewhere Ctrl-C can. Then
-    unfinished samples are missing in the answer.
+    In the run's own process the run's control can end the solve early; in other processes Ctrl-C
+    can. Then unfinished samples are missing in the answer.
     """
     worker = worker_name()
     context = HELD_PROBLEMS.run_context(task.run, task.options)

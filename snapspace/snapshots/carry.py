@@ -20,13 +20,13 @@ FloatArray = NDArray[np.float64]
 
 @single_threaded_blas
 def carry_over(snapshots: Snapshots, problem: PosingProblem) -> Snapshots:
-    """Carries snapshots over to a problem with other handles, as starts and for its basis.
+    """Converts snapshots to a problem with other handles, as starts and for its basis.
 
     Each shape gets the parameters of the new problem that fit it best. A handle with the same
     vertices as an old one keeps its motion. Any other handle gets the rigid motion that brings its
-    rest vertices closest to the shape's, weighted by mass, which is the motion of least energy. If
-    the new problem fixes another handle, the shape is moved back rigidly by the motion of that
-    handle, and all motions count from there: the objective does not change.
+    rest vertices closest to the shape's, weighted by mass; this motion has the least energy. If the
+    new problem fixes another handle, the shape is moved back rigidly by the motion of that handle,
+    and all motions are relative to it. This does not change the objective.
 
     Parameters
     ----------
@@ -41,7 +41,8 @@ def carry_over(snapshots: Snapshots, problem: PosingProblem) -> Snapshots:
     Snapshots
         Snapshots of `problem`; parameters may lie outside its box. If the problem has the same
         handles in another order, with other names or in another box, the shapes are its solutions
-        and the reports are kept. Otherwise their status is "carried", and the numbers are zero.
+        and keep their reports. Otherwise the status of the reports is "carried", and their numbers
+        are zero.
 
     Raises
     ------
@@ -54,10 +55,10 @@ def carry_over(snapshots: Snapshots, problem: PosingProblem) -> Snapshots:
     objective does not depend on the undetermined part. The handle gets the smallest rotation
     relative to the fixed handle. Rotations are fitted after Kabsch 1976, see `rigid_registration`.
 
-    An added handle hardly pulls: on the creature a solve from such shapes at their own parameters
-    takes 2 iterations, and 25 new samples with 100 carried ones span as much as 50 new ones (on the
-    Dragon 100). If a handle is removed, its force is missing: the shapes help a basis of few new
-    samples, but as starts they are no better than the rest shape.
+    An added handle hardly pulls. On the creature a solve from such a shape at its own parameters
+    takes 2 iterations, and 25 new samples with 100 carried ones are as good as 50 new ones (on the
+    Dragon, as 100). If a handle is removed, its force is missing: the shapes improve a basis from
+    few new samples, but as starts they are no better than the rest shape.
     """
     old = _checked(snapshots, problem)
     known = snapshots.select(snapshots.usable)
@@ -96,10 +97,10 @@ class _Carrier:
     def carry(self, moving: FloatArray, shape: FloatArray) -> tuple[FloatArray, FloatArray | None]:
         """Parameters (p,) and positions (3n,), from motions (h - 1, 6) and positions (3n,).
 
-        None for positions that stay, since the first handle does.
+        None for positions that stay because the first handle stays.
         """
         motions = np.vstack([np.zeros(6), moving])
-        moves = self._places[0] != 0  # otherwise known values keep all their bits
+        moves = self._places[0] != 0  # otherwise known values stay bitwise the same
         if moves:
             back = self._first_motion(motions, shape).inverse()
             shape = back.apply(shape)
@@ -147,7 +148,7 @@ def _composed(second: RigidMotion, first: RigidMotion) -> RigidMotion:
 
 
 def _same_objective(old: PosingProblem, new: PosingProblem) -> bool:
-    """Whether solutions of one are, up to a rigid motion, solutions of the other."""
+    """Whether solutions of one problem are, up to a rigid motion, solutions of the other."""
     same_weights = (old.material, old.stiffness) == (new.material, new.stiffness)
     same_number = len(old.handles) == len(new.handles)
     return same_weights and same_number and None not in new.handles.places_in(old.handles)

@@ -28,7 +28,7 @@ class CheckpointNotice(Notice):
 
 
 class UnsavedSamplesError(ValueError):
-    """Finished samples could not be written. The error holds them, so that they can be saved later.
+    """Finished samples could not be written. The error has them, so that they can be saved later.
 
     indices, displacements, reports : the arguments of the `Checkpoint.save` that failed
     """
@@ -57,13 +57,13 @@ def run_key(problem: Problem, parameters: FloatArray, options: dict[str, Any]) -
 class Checkpoint:
     """A folder of finished samples for one run: the same problem, samples and solver options.
 
-    `solve_snapshots` refuses the folder of another run, whose shapes belong to other parameters.
+    `solve_snapshots` refuses the folder of another run, since its shapes are for other parameters.
 
     Parameters
     ----------
     folder : Path
-        The folder, made when the first samples are saved. Each save adds one file that is either
-        complete or absent, even if the process is killed; a checksum detects later damage.
+        The folder, created when the first samples are saved. Each save adds one file that is either
+        complete or absent, even if the process is killed. A checksum detects later damage.
     """
 
     def __init__(self, folder: str | Path) -> None:
@@ -89,8 +89,7 @@ class Checkpoint:
         Returns
         -------
         list of (3n,)
-            The same displacements, mapped read-only from the file: the caller need not keep its
-            own.
+            The same displacements, mapped read-only from the file; the caller can drop its own.
 
         Raises
         ------
@@ -122,8 +121,8 @@ class Checkpoint:
     def load(self, *, run: str = "") -> Samples:
         """All finished samples by number: displacements (3n,) mapped from the files, and reports.
 
-        Damaged files are skipped with a `CheckpointNotice`. Raises ValueError for samples of
-        another run than the given one; without a key, those of any run are loaded.
+        Damaged files are skipped with a `CheckpointNotice`. Raises ValueError for samples of a run
+        other than the given one; without a key, samples of any run are loaded.
         """
         found: Samples = {}
         for path in self._files():
@@ -154,10 +153,10 @@ class Checkpoint:
         return numbers
 
     def remove(self) -> None:
-        """Deletes the folder, after the result is safe elsewhere.
+        """Deletes the folder, once the result is safe elsewhere.
 
-        Rows that are still mapped can still be used. Systems that do not delete mapped files
-        (Windows) keep these.
+        Rows that are still mapped remain usable. Systems that cannot delete mapped files (Windows)
+        keep the files.
         """
         shutil.rmtree(self.folder, ignore_errors=True)
 

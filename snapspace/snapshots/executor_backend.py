@@ -31,20 +31,20 @@ FloatArray = NDArray[np.float64]
 class ExecutorBackend:
     """Solves blocks of samples on an executor; each block is one task on one thread.
 
-    The problem is not sent with the tasks. A worker that lacks it says so, and gets it with the
-    next block. While the problem is on its way, other blocks from that worker are held back.
-    Workers in this process (a thread pool) share the problem itself.
+    The problem is not sent with the tasks. A worker that lacks it answers so, and gets it with the
+    next block. Until then, other blocks that this worker returned are held back. Workers in this
+    process (a thread pool) share the problem itself.
 
     Parameters
     ----------
     executor : Executor
-        An executor of threads, processes or a cluster; it is not shut down.
+        An executor of threads, processes or a cluster. It is not shut down.
     problem : Problem
-        A problem that can be pickled. If its mean shape is not known, it is solved for here.
+        A problem that can be pickled. Its mean shape, if not known, is computed here.
     options : ResolvedOptions
-        A sample has the same bits as in a local run with the same options, whatever its block.
+        A sample is bitwise the same as in a local run with the same options, in any block.
     basis : (3n, d), optional
-        That of predictions, see `Predictions`; it is sent with the problem.
+        Basis of predictions, see `Predictions`; it is sent with the problem.
 
     Raises
     ------
@@ -69,7 +69,7 @@ class ExecutorBackend:
         self._executor = executor
         self._options = options
         self._payload = _pickled(problem, basis)
-        # not the fingerprint: that does not depend on a given mean shape
+        # not the fingerprint, which does not depend on a given mean shape
         self._key = hashlib.sha256(self._payload).hexdigest()
         self._run = uuid.uuid4().hex
         self._context = RunContext(
@@ -89,7 +89,7 @@ class ExecutorBackend:
         Raises
         ------
         ValueError
-            If the executor accepts no more work.
+            If the executor no longer accepts work.
         """
         task = BlockTask(
             run=self._run,
@@ -105,20 +105,20 @@ class ExecutorBackend:
     def wait(self, timeout: float) -> list[Solved]:
         """Newly finished samples, in any order.
 
-        Returns as soon as there are any, or no task is in flight, or after `timeout` seconds.
-        After `cancel` these are the samples that were finished nevertheless.
+        Returns as soon as there are any, or no task is in flight, or after `timeout` seconds. After
+        `cancel`, returns samples that were finished nevertheless.
 
         Raises
         ------
         ValueError, MemoryError, RuntimeError
-            For a block that failed, with its samples in the message, or a lost worker. A later
+            For a block that failed, with its samples in the message, or for a lost worker. A later
             call still returns other finished samples.
         """
         deadline = monotonic() + timeout
         while not self._collected and self._in_flight:
             left = deadline - monotonic()
             done, _ = wait(self._in_flight, timeout=max(left, 0.0), return_when=FIRST_COMPLETED)
-            # results first: an error would keep them from the caller
+            # results first, since an error would keep them from the caller
             for future in sorted(done, key=_has_failed):
                 if self._collected and _has_failed(future):
                     break
@@ -136,7 +136,7 @@ class ExecutorBackend:
         """All samples are submitted."""
 
     def cancel(self) -> None:
-        """Asks all tasks to end; returns at once. Other processes finish what they have begun."""
+        """Makes tasks end soon; returns at once. Other processes finish what they have begun."""
         self._cancelled = True
         self._context.control.cancel()
         self._held_back.clear()
@@ -145,7 +145,7 @@ class ExecutorBackend:
                 del self._in_flight[future]
 
     def stop(self, seconds: float) -> list[Solved]:
-        """Cancels, and returns finished samples once tasks have ended or time is up."""
+        """Cancels, and returns finished samples once tasks have ended or the time is up."""
         self.cancel()
         deadline, solved = monotonic() + seconds, []
         while self._in_flight and monotonic() < deadline:
@@ -165,7 +165,7 @@ class ExecutorBackend:
         place = {} if worker is None else for_worker(self._executor, worker)
         try:
             with warnings.catch_warnings():
-                # dask advises to send large data once per worker, which is done here
+                # dask recommends sending large data once per worker, as is done here
                 warnings.filterwarnings("ignore", message="Sending large graph")
                 future = self._executor.submit(solve_block, numbered, **place)
         except Exception as error:
@@ -174,11 +174,11 @@ class ExecutorBackend:
         return future
 
     def _collect(self, future: Future[BlockAnswer]) -> None:
-        """Collects the answer of a finished future, and sends what is left of its block."""
+        """Collects the answer of a finished future, and sends the rest of its block."""
         task, is_carrier = self._in_flight[future], future in self._carriers
         try:
             answer = self._answer(future, task)
-            # before the future is dropped: Ctrl-C in between repeats samples and loses none
+            # before the future is dropped, so that Ctrl-C in between repeats samples and loses none
             self._collected += answer.solved or [] if answer else []
         finally:
             del self._in_flight[future]
@@ -232,7 +232,7 @@ def _has_failed(future: Future[BlockAnswer]) -> bool:
 
 def _pickled(problem: Problem, basis: FloatArray | None) -> bytes:
     try:
-        # the core keeps a basis in single precision
+        # the core stores a basis in single precision
         single = None if basis is None else basis.astype(np.float32)
         return pickle.dumps((problem, single), protocol=pickle.HIGHEST_PROTOCOL)
     except (pickle.PicklingError, TypeError, AttributeError) as error:

@@ -11,9 +11,8 @@ _KEPT = "finished samples are in the checkpoint, if there is one; the same call 
 def task_fault(error: BaseException, samples: Sequence[int]) -> BaseException:
     """The error to raise for the exception of a task with these samples.
 
-    A lost worker or cluster gives a ValueError that says what is kept. An error of the solve stays
-    a ValueError or MemoryError if it was one, and otherwise becomes a RuntimeError. Ctrl-C in a
-    worker stays unchanged.
+    A lost worker or cluster gives a ValueError that says what is kept. A ValueError or MemoryError
+    of the solve stays one; other errors become a RuntimeError. Ctrl-C in a worker stays unchanged.
     """
     text = _one_line(error)
     if _is_lost_worker(error):
@@ -57,7 +56,7 @@ def _is_lost_worker(error: BaseException) -> bool:
 
 
 def _is_of_dask(error: BaseException) -> bool:
-    # by the name of its package, since that need not be installed
+    # by the name of its package, which need not be installed
     return type(error).__module__.startswith("distributed.")
 
 

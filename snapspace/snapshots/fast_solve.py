@@ -26,21 +26,22 @@ def solve_fast(
     threads: int,
     coarse: core.CoarseSpace | None = None,
 ) -> tuple[FloatArray, list[SampleReport]]:
-    """Displacements (k, 3n) and reports of L-BFGS solves, with samples in lanes.
+    """Displacements (k, 3n) and reports of L-BFGS solves, with samples in SIMD lanes.
 
     The result of a sample does not depend on the other samples of the call.
 
     Parameters
     ----------
     problem : Problem
-    inputs : (k, input_size), of predictions with their inverses; starts : (k, 3n) displacements
+    inputs : (k, input_size), followed by the inverses of predictions; starts : (k, 3n)
+    displacements
     control : SolveControl
         Cancelled samples have the status cancelled.
     options : ResolvedOptions
     threads : int
         Number of threads, 0 for all.
     coarse : CoarseSpace, optional
-        That of predictions; then there are no soft modes.
+        The space of predictions, which replaces the soft modes.
     """
     batch = problem.system.solve_fast(
         inputs,
@@ -96,7 +97,7 @@ def continue_solving(
 ) -> tuple[FloatArray, SampleReport]:
     """Continues one sample alone, on factors made for the shapes that it reaches.
 
-    inputs (input_size,), of which only the system's count; shape (3n,) and report are those reached
+    Only the system's part of inputs (input_size,) is used. Shape (3n,) and report are those reached
     so far. Returns the final ones. A sample that got stuck continues in double precision.
     """
     traits = problem.solving

@@ -13,22 +13,22 @@ from .starts import interpolation_weights
 
 FloatArray = NDArray[np.float64]
 
-#: Guesses are worth their time up to so many finished samples per parameter. On the Dragon a guess
-#: costs two evaluations, and saves as many once six samples per parameter are finished.
+#: Guesses are worth their time up to this many finished samples per parameter. On the Dragon a
+#: guess costs two evaluations, and saves as many once six samples per parameter are finished.
 GUESSED = 8
 
 
 class Guesses:
     """A problem's own guesses, corrected by their errors at finished samples.
 
-    Far from all samples a corrected guess equals the guess, and at a sample the sample. Compared
-    with interpolating shapes, interpolating these errors leaves half to two thirds of the error.
+    Far from all samples a corrected guess equals the guess; at a sample it equals the sample.
+    Interpolating these errors leaves half to two thirds of the error of interpolating shapes.
 
     Parameters
     ----------
     problem : Problem
     parameters : (k, p)
-        Parameters of all samples, known or wanted; methods refer to samples by row.
+        Parameters of all samples, finished or not; methods refer to samples by row.
     """
 
     def __init__(self, problem: Problem, parameters: FloatArray) -> None:
@@ -50,7 +50,7 @@ class Guesses:
         if not self._make_missing(wanted):
             return None
         guesses = DisplacementRows([self._rows[i] for i in wanted], rows.size)
-        if len(known) < 2:  # only the rest shape, where guesses are exact
+        if len(known) < 2:  # only the rest shape is known, where guesses are exact
             return guesses.array()
         self._make_missing(known)
         weights = interpolation_weights(self._scaled[list(known)], self._scaled[list(wanted)])

@@ -1,4 +1,4 @@
-"""HeldOutError: estimates the error that unseen samples would have by now."""
+"""HeldOutError: estimates the current error of unseen samples."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from ..problem import Problem, solutions_beyond_tau
 
 FloatArray = NDArray[np.float64]
 
-#: Dimension of the subspaces in which errors are estimated, a size that users build. While there
-#: are fewer directions, all of them.
+#: Dimension of the subspaces in which errors are estimated, a usual size. While there are fewer
+#: directions, all are used.
 DIMENSION = 40
 
 
@@ -42,7 +42,7 @@ class HeldOutError:
         self.gram.add(rows, threads=threads)
 
     def of_last(self, converged: NDArray[np.bool_], last: int) -> float | None:
-        """Median error of the last samples against all before; None if there are none.
+        """Median error of the last samples by all earlier ones; None if there are none.
 
         converged (k,) is a mask of the samples that count.
         """

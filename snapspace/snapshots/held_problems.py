@@ -15,7 +15,8 @@ from .fast_solve import seed_of
 from .predictions import coarse_space
 from .solver_options import ResolvedOptions
 
-#: Enough for a cluster that serves two runs in turn; a problem with its factor can take GBs.
+#: Number of held problems: enough for a cluster that alternates between two runs. A problem with
+#: its factor can take gigabytes.
 _MOST_RECEIVED = 2
 
 
@@ -27,14 +28,14 @@ class HeldProblem:
     coarse: core.CoarseSpace | None
 
     def prepare(self, options: ResolvedOptions) -> HeldProblem:
-        """Makes what all tasks share, unless it is made; returns this."""
+        """Makes the parts that all tasks share, unless they exist; returns this object."""
         _ = self.problem.system, seed_of(self.problem, options, self.coarse)
         return self
 
 
 @dataclass(frozen=True, eq=False)
 class RunContext:
-    """A run's problem and the control that ends its tasks, shared with those in its own process."""
+    """A run's problem and the control that ends its tasks, shared with tasks in its own process."""
 
     held: HeldProblem
     control: core.SolveControl
@@ -46,7 +47,7 @@ class HeldProblems:
     This is the only process-wide state of the package. Tasks of an executor share only their
     process, and the copy and factor of a problem cost more than a block of samples. Results do not
     depend on what is held. The state is bounded: it keeps the last few problems that came with a
-    task, and those of runs in this process only as long as the runs.
+    task, and problems of runs in this process only as long as the runs exist.
     """
 
     def __init__(self) -> None:
@@ -54,7 +55,7 @@ class HeldProblems:
 
     def clear(self) -> None:
         """Forgets everything."""
-        # building a factor under the lock makes one per process, not one per thread
+        # under the lock, one factor is made per process, not one per thread
         self._lock = threading.Lock()
         self._runs: WeakValueDictionary[str, RunContext] = WeakValueDictionary()
         self._received: OrderedDict[str, HeldProblem] = OrderedDict()
@@ -96,6 +97,5 @@ class HeldProblems:
 
 HELD_PROBLEMS = HeldProblems()
 if hasattr(os, "register_at_fork"):
-    # a forked worker must inherit neither a locked lock nor the control of a run that cannot reach
-    # it
+    # a forked worker must not inherit a locked lock, or the control of a run that cannot reach it
     os.register_at_fork(after_in_child=HELD_PROBLEMS.clear)

@@ -38,7 +38,7 @@ class LocalBackend:
     threads : int
         Number of threads, 0 for all.
     basis : (3n, d), optional
-        That of predictions, see `Predictions`.
+        Basis of predictions, see `Predictions`.
     """
 
     def __init__(
@@ -50,7 +50,7 @@ class LocalBackend:
         threads: int,
         basis: FloatArray | None = None,
     ) -> None:
-        # made once, before threads ask for them, and where Ctrl-C can interrupt it
+        # made once, before threads need them, and where Ctrl-C can interrupt the work
         _ = problem.system
         self._coarse = coarse_space(problem, basis)
         self._seed = seed_of(problem, options, self._coarse)
@@ -89,7 +89,7 @@ class LocalBackend:
         return [one for one in done if one.report.status != "cancelled"]
 
     def running(self) -> dict[int, int]:
-        """Samples that are being solved, and how many evaluations they have had."""
+        """Samples that are being solved, with their numbers of evaluations."""
         return dict(self._queue.running())
 
     def no_more(self) -> None:
@@ -102,14 +102,14 @@ class LocalBackend:
         self._queue.close()
 
     def stop(self, seconds: float) -> list[Solved]:
-        """Cancels, and returns finished samples once the solvers have stopped or time is up."""
+        """Cancels, and returns finished samples once the solvers have stopped or the time is up."""
         self.cancel()
         running: list[Future[Any]] = [self._server, *self._continued.values()]
         futures.wait(running, timeout=seconds)
         return self.wait(0.0)
 
     def close(self) -> None:
-        """Cancels what is left, and waits for the threads."""
+        """Cancels unfinished samples, and waits for the threads."""
         self.cancel()
         self._pool.shutdown()
 

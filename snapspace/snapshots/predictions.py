@@ -1,4 +1,4 @@
-"""Predictions: what a reduced model says of samples before they are solved."""
+"""Predictions: a reduced model's solutions for samples that are not solved yet."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ LEAST_CURVATURE = 1e-10
 
 @dataclass(frozen=True, eq=False)
 class Predictions:
-    """Solutions of a reduced model for k samples, where solves start, and its Hessians there.
+    """Solutions of a reduced model for k samples, as starts of solves, and its Hessians there.
 
     With Hessians the seed of the fast solver is A^-1 + U B U^T, with the scalar factor's matrix A
     and the inverse Hessian B of each sample [two-level additive Schwarz: Dryja & Widlund 1990; a
-    fixed inverse as the seed: Liu, Bouaziz, Kavan 2017]. A takes soft and smooth deformations to be
-    stiff; B knows how stiff they are. It replaces the patches of blended surfaces, which know it as
-    well. Newton's method has no seed.
+    fixed inverse as the seed: Liu, Bouaziz, Kavan 2017]. A overestimates the stiffness of soft and
+    smooth deformations; B has the right one. The term replaces the patches of blended surfaces,
+    which have the same purpose. Newton's method has no seed.
 
     Parameters
     ----------
     displacements : (k, 3n)
-        The solutions tau + U q, displaced from the problem's base.
+        The solutions tau + U q, as displacements from the problem's base.
     basis : (3n, d), optional
         U, any independent deformations.
     inverses : (k, d, d), optional
@@ -41,7 +41,7 @@ class Predictions:
     Raises
     ------
     ValueError
-        If there is a basis without inverses, or shapes do not match.
+        For a basis without inverses or inverses without a basis, or if shapes do not match.
     """
 
     displacements: FloatArray
@@ -71,7 +71,7 @@ class Predictions:
             )
 
     def with_inverses(self, inputs: FloatArray, which: slice) -> FloatArray:
-        """What the core takes: inputs (j, m) of some samples, each with B if any, (j, m + d^2)."""
+        """Inputs of samples for the core, (j, m), each followed by B if any, (j, m + d^2)."""
         if self.inverses is None:
             return inputs
         inverses = self.inverses[which]
@@ -79,7 +79,7 @@ class Predictions:
 
 
 def coarse_space(problem: Problem, basis: FloatArray | None) -> core.CoarseSpace | None:
-    """The basis (3n, d) of predictions as the core's solves take it; None without predictions."""
+    """The basis (3n, d) of predictions for the core's solves; None without predictions."""
     if basis is None:
         return None
     modes = np.ascontiguousarray(basis.T, np.float64)

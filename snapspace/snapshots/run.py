@@ -33,7 +33,7 @@ from .starts import interpolated_start, lowest_start, nearest_start
 FloatArray = NDArray[np.float64]
 
 POLL_SECONDS = 0.1
-#: How long Ctrl-C waits for solvers to stop: they check between the parts of an iteration.
+#: How long Ctrl-C waits for solvers to stop; they check between the parts of an iteration.
 STOP_SECONDS = 0.4
 
 
@@ -86,7 +86,7 @@ class Run:
         self.unsaved: list[int] = []
         self.save_size = options.block  # number of samples to save together
         self.complete = 0  # number of finished leading blocks
-        self.quick: list[list[int]] = []  # for leading blocks: samples that others start from
+        self.quick: list[list[int]] = []  # for leading blocks: samples from which others start
         self.key = run_key(problem, samples, options.as_key()) if checkpoint else ""
         for index, (row, report) in (checkpoint.load(run=self.key) if checkpoint else {}).items():
             self.rows[index], self.reports[index] = row, report
@@ -143,7 +143,7 @@ class Run:
             backend.close()
 
     def _begin_guesses(self) -> Callable[[], None]:
-        """Begins to make guesses for the first block; the returned function waits for them."""
+        """Starts making guesses for the first block; the returned function waits for them."""
         if self.found or self.options.solver == "newton" or self.predictions is not None:
             return lambda: None
         _ = self.problem.system  # otherwise two threads could both make it
@@ -215,8 +215,8 @@ class Run:
         missing = [i for i in block if i not in self.reports]
         if not missing:
             return
-        # for the whole block: products with fewer rows round differently, and the missing samples
-        # depend on where an earlier run was interrupted
+        # for the whole block, since products with fewer rows round differently, and the missing
+        # samples depend on where an earlier run was interrupted
         inputs = self.problem.inputs(self.samples[block])
         starts = self._starts(index, inputs)
         if self.predictions is not None and self.options.solver == "fast":
@@ -270,7 +270,7 @@ class Run:
             self.unsaved.append(one.sample)
 
     def _save(self) -> None:
-        """Saves unsaved samples; those that cannot be saved stay in memory for the next try."""
+        """Saves unsaved samples; if that fails, they stay in memory for the next try."""
         if self.checkpoint is None or not self.unsaved:
             return
         places = sorted(self.unsaved)

@@ -86,8 +86,8 @@ def read_run(path: Path) -> str:
 def read_samples(path: Path) -> Samples:
     """Displacements (3n,) and reports of a file by sample number, after checking its checksum.
 
-    The displacements are mapped: the system reads them when they are used, and may drop them from
-    memory again. If a file cannot be mapped, they are in memory.
+    The displacements are memory-mapped: the system reads them when they are used, and may drop them
+    from memory again. If a file cannot be mapped, they are read into memory.
 
     Raises ValueError, which names the fault, and OSError.
     """
@@ -105,11 +105,11 @@ def read_samples(path: Path) -> Samples:
 def _rows(file: BinaryIO, shape: tuple[int, int], offset: int) -> FloatArray:
     try:
         mapped = np.memmap(file, "<f8", mode="r", offset=offset, shape=shape)
-    except OSError:  # the file system cannot, or too many files are mapped
+    except OSError:  # the file system cannot map files, or too many are mapped
         file.seek(offset)
         content = file.read(8 * shape[0] * shape[1])
         return np.frombuffer(content, "<f8").reshape(shape).astype(np.float64, copy=False)
-    # a plain array: results computed from it should not be memmaps
+    # a plain array, since results computed from a memmap would be memmaps
     return mapped.view(np.ndarray)
 
 
@@ -150,7 +150,7 @@ def _reports(metadata: dict[str, str], count: int) -> list[SampleReport]:
 
 
 def _checksum(file: BinaryIO, words: str) -> str:
-    """Checksum of words and the rest of the file; read, since a map would fill the memory."""
+    """Checksum of words and the rest of the file. It is read, since a map would fill the memory."""
     checksum = zlib.crc32(words.encode())
     while piece := file.read(PIECE):
         checksum = zlib.crc32(piece, checksum)

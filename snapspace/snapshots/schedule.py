@@ -1,4 +1,4 @@
-"""Schedule: which samples are solved together, and which samples they wait for."""
+"""Schedule: which samples are solved together, and which ones they wait for."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from dataclasses import dataclass
 class Schedule:
     """Blocks of samples in order, each with the earlier blocks that supply its starts.
 
-    Starts depend only on the samples, never on which ones happen to be finished. So results do not
-    depend on threads, executors or interruptions.
+    Starts depend only on the samples, never on which ones happen to be finished first. So results
+    do not depend on threads, executors or interruptions.
 
     count : number of samples
     block : samples per block
     strict : whether a block starts from all earlier blocks and waits for them. Otherwise it uses
-        the first three quarters of the blocks before it, and in each of these the three quarters
-        of the samples that took the fewest evaluations, so that nobody waits for slow samples.
+        the first three quarters of the blocks before it, and in each of these the three quarters of
+        the samples that took the fewest evaluations, so that no block waits for slow samples.
     """
 
     count: int
@@ -37,14 +37,14 @@ class Schedule:
         return range(index if self.strict else 3 * index // 4)
 
     def waited_for(self, index: int) -> int:
-        """For how many samples of a block later blocks wait."""
+        """Number of samples of a block for which later blocks wait."""
         size = len(self.samples(index))
         return size if self.strict else -(-3 * size // 4)
 
     def quick(
         self, index: int, finished: Mapping[int, int], running: Mapping[int, int]
     ) -> list[int] | None:
-        """The samples of a block from which later blocks start; None while they are not certain.
+        """The samples of a block from which later blocks start; None while these are not certain.
 
         finished, running : evaluations by sample, final ones or those so far
         """

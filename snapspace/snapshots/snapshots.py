@@ -26,8 +26,8 @@ class SampleReport:
     decrease that the solver's model still predicted, seconds the wall time, inverted_tets the
     number of tets with det F <= 0.
 
-    The status "carried" is that of a shape not solved for these parameters, see `carry_over`. Then
-    all numbers are zero.
+    The status "carried" marks a shape that was not solved for these parameters, see `carry_over`.
+    Then all numbers are zero.
     """
 
     status: str
@@ -52,14 +52,14 @@ class SampleReport:
 
 @dataclass(frozen=True, eq=False)
 class Snapshots:
-    """Solutions of a problem at sampled parameters, and shapes that serve a basis equally well.
+    """Solutions of a problem at sampled parameters, or shapes that are as good for a basis.
 
     problem : Problem
     parameters : (k, p), one sample per row
     displacements : DisplacementRows (k, 3n) from problem.base, in memory or mapped from files
     reports : one SampleReport per sample
-    gram : SnapshotGram of the displacements, if it is known, as after a run with `progress`; it
-        saves `snapshot_pca` most of its work
+    gram : SnapshotGram of the displacements, if it is known, as after a run with `progress`. It
+    saves most of the work of `snapshot_pca`
 
     Raises ValueError unless there is a row of problem.base's size and a report for each sample.
     """
@@ -100,7 +100,7 @@ class Snapshots:
         shapes: ArrayLike,
         reports: Sequence[SampleReport],
     ) -> Snapshots:
-        """From an array of shapes (k, 3n), one per row; the displacements are in memory.
+        """Makes snapshots in memory from an array of shapes (k, 3n), one per row.
 
         Raises ValueError for shapes in another layout, and as `Snapshots`.
         """
@@ -122,8 +122,8 @@ class Snapshots:
     def shapes(self) -> FloatArray:
         """All shapes, (k, 3n), one per row, positions x0 y0 z0 x1 ...
 
-        Each call makes a new array of 24 k n bytes. `displacements` gives single rows, or blocks
-        of columns, without the others.
+        Each call makes a new array of 24 k n bytes. `displacements` gives single rows, or blocks of
+        columns, without this memory.
         """
         shapes = self.displacements.array()
         shapes += self.problem.base
@@ -136,11 +136,11 @@ class Snapshots:
 
     @property
     def usable(self) -> NDArray[np.bool_]:
-        """Mask (k,) of the samples for a basis and for starts: converged ones and carried ones."""
+        """Mask (k,) of the samples for a basis and for starts: converged and carried ones."""
         return np.array([r.converged or r.carried for r in self.reports], dtype=bool)
 
     def with_gram(self, *, threads: int | None = None) -> Snapshots:
-        """The same with `gram`, which is computed where it is not known, on all threads or some."""
+        """The same with `gram`, which is computed if it is not known; `threads`: default all."""
         if self.gram is not None:
             return self
         gram = SnapshotGram.of(self.problem)
@@ -158,8 +158,8 @@ class Snapshots:
         Raises
         ------
         ValueError
-            For a mask of another length, a number that is not between 0 and k - 1, or anything
-            else.
+            For a mask of another length, a number that is not between 0 and k - 1, or any other
+            type.
 
         Examples
         --------
@@ -177,7 +177,7 @@ class Snapshots:
         Raises
         ------
         ValueError
-            If the others are no snapshots, or of another problem.
+            If the others are not snapshots, or of another problem.
         """
         check_snapshots(others, "Snapshots.joined", "others")
         if others.problem.fingerprint != self.problem.fingerprint:
@@ -216,7 +216,7 @@ def check_snapshots(snapshots: object, who: str, name: str = "snapshots") -> Non
 
 
 def check_snapshots_of(problem: Problem, snapshots: Snapshots, who: str, name: str) -> None:
-    """The same, also for snapshots of another problem."""
+    """The same, and for snapshots of another problem."""
     check_snapshots(snapshots, who, name)
     if snapshots.problem.fingerprint != problem.fingerprint:
         cure = "solve samples of this one"

@@ -45,22 +45,23 @@ def solve_snapshots(
     threads : int, optional
         Default: as many as the machine has. The result is bitwise the same for any number.
     progress : callable(SolveProgress), optional
-        Called about ten times a second, from this thread. Its error estimate needs the inner
-        products of the samples, which are then computed during the run and kept in the result
-        (`gram`).
+        Called about ten times a second, from this thread. The error estimate in its reports needs
+        the inner products of the samples, so these are computed during the run, and stored in the
+        result (`gram`).
     checkpoint : Checkpoint, optional
-        Finished samples are saved there block by block, and on Ctrl-C. A run with the same
+        Where finished samples are saved, block by block and on Ctrl-C. A run with the same
         arguments continues from them and gives the same result as one that was not interrupted.
-        Saved shapes need no memory: they are mapped from the files. Samples that cannot be saved,
-        for instance because the disk is full, stay in memory, with a `CheckpointNotice`.
+        Saved shapes need no memory, since they are mapped from the files. Samples that cannot be
+        saved, for instance because the disk is full, stay in memory, and a `CheckpointNotice` says
+        so.
     executor : concurrent.futures.Executor, optional
         A pool of processes, or a cluster (dask: `client.get_executor()`). Its workers, instead of
-        `threads`, solve the samples, each block on one thread; the result has the same bits.
+        `threads`, solve the samples, each block on one thread; the result is bitwise the same.
     known : Snapshots, optional
         Solutions of the same problem, or shapes near them, as starts for the new samples.
     predictions : Predictions, optional
-        What a reduced model says of these samples, for starts and seeds: between poses, solves then
-        take a third to a seventh of the iterations.
+        A reduced model's solutions for these samples, as starts and in seeds. Between poses, solves
+        then take a third to a seventh of the iterations.
 
     Returns
     -------
@@ -76,7 +77,7 @@ def solve_snapshots(
         predictions for other samples or another mesh, or an executor that has lost its workers;
         then finished samples are in the checkpoint.
     Interrupted
-        On Ctrl-C, after the finished samples were saved.
+        On Ctrl-C, after the finished samples have been saved.
     """
     who = "solve_snapshots"
     cure = "give a PosingProblem or InterpolationProblem first, then the parameters"

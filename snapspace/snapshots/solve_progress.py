@@ -13,9 +13,9 @@ class SolveProgress:
     done, total : numbers of finished samples and of all samples
     seconds : time since the run began
     solved : number of samples that this run has solved; the others were finished before
-    held_out_error : relative error in the M-norm of the newest samples' projection onto the best
-        subspace of the samples before them, the median of the newest block; None before the second
-        block is finished. It estimates the error of the subspace at unseen parameters.
+    held_out_error : relative error, in the M-norm, of projecting the newest samples onto the best
+    subspace of the samples before them, as the median over the newest block. None before the second
+    block is finished. It estimates the error of the subspace at unseen parameters.
     """
 
     done: int
@@ -31,7 +31,7 @@ class SolveProgress:
 
     @property
     def eta(self) -> float | None:
-        """Seconds that the remaining samples take at this rate; None before the first sample."""
+        """Seconds for the remaining samples at this rate; None before the first sample."""
         return None if self.rate is None else (self.total - self.done) / self.rate
 
 

@@ -18,14 +18,14 @@ PROJECTIONS: tuple[Projection, ...] = ("stretches", "clamp", "absolute")
 PRECISIONS: tuple[Precision, ...] = ("single", "double")
 
 #: Single precision is as good as double down to this tolerance: 64 samples of the Dragon, stable
-#: neo-Hookean, end at the same median distance of 6e-4 from tight solutions after as many
-#: evaluations, in 0.7 of the time.
+#: neo-Hookean, end at the same median distance of 6e-4 from tight solutions, after as many
+#: evaluations and in 0.7 of the time.
 SINGLE_TOLERANCE = 1e-6
 #: Below this, single precision takes more evaluations than double, and may not converge. On soft
 #: bodies that happens at 1e-5: see `needs_another_try`.
 SINGLE_LIMIT = 1e-7
-#: Where `settling` decides, samples whose energy converges earlier, for instance those at rest,
-#: stop at this tolerance.
+#: With `settling`, samples whose energy converges earlier, for instance those at rest, stop at this
+#: tolerance.
 SETTLED_TOLERANCE = 1e-6
 #: In single precision the energies of tets must be far from the ends of the range, 1e-38 and 1e38.
 SINGLE_ENERGIES = 1e-22, 1e22
@@ -41,42 +41,45 @@ class SolverOptions:
     Parameters
     ----------
     solver : "fast" or "newton", default "fast"
-        L-BFGS on a scalar factor that all samples share, or the paper's Newton method (sec. 4.2).
+        L-BFGS, preconditioned by a scalar factor that all samples share, or the paper's Newton
+        method (sec. 4.2).
     tolerance : float, optional
         Converged when twice the decrease that the solver's model predicts is below tolerance * F,
-        and for "fast" the mean decrease of the last 8 iterations is as well. Default: `settling`
-        decides where the problem has one, otherwise the problem's, see `SolverTraits`.
+        and for "fast" the mean decrease of the last 8 iterations is as well. Default: the
+        problem's, see `SolverTraits`; if the problem has a `settling`, that test decides instead.
     settling : float, optional
-        "fast" only: also converged when 8 directions as long as the last 4 (steps to the minimum
-        of the solver's model) together would be shorter than this share of the sample's
+        "fast" only: also converged when 8 search directions as long as the last 4 (steps to the
+        minimum of the solver's model) would together be shorter than this share of the sample's
         displacement, in the norm of the lumped masses. A subspace needs shapes, not energies: on a
-        fine mesh the energy keeps falling while the surface wrinkles, and nothing else moves.
-        Default: the problem's, see `SolverTraits`, or a fifth of it without soft modes, where
-        steps are too short. If a tolerance is given, the default is 0, which disables the test.
+        fine mesh the energy keeps decreasing while only wrinkles of the surface move. Default: the
+        problem's, see `SolverTraits`, or a fifth of it without soft modes, where steps are too
+        short. If a tolerance is given, the default is 0, which disables the test.
     soft_modes : bool, default True
         "fast" only: L-BFGS is seeded with the lowest modes of a posing problem, in addition to the
-        scalar factor. Without them it takes half as many steps again, and soft parts lag behind.
+        scalar factor. Without them it takes half as many steps again, and soft parts converge late.
     max_iterations : int, default 5000
         Limit per sample; a sample that needs more has the status max_iterations. Most take fewer
-        than 200, but long thin bodies such as springs and tails of varying tets take thousands.
+        than 200, but long thin bodies such as springs, and tails with tets of varying size, take
+        thousands.
     projection : "stretches", "clamp" or "absolute", optional
-        Newton only: how the Hessian of a tet becomes positive semi-definite. stretches: taken at
-        singular values raised to `clamp` (paper, sec. 4.2), the default for St.Venant-Kirchhoff.
-        clamp, the default for all others: negative eigenvalues become zero (Teran, Sifakis,
-        Irving, Fedkiw 2005). absolute: they change their sign (Chen et al. 2024).
+        Newton only: how the Hessian of a tet becomes positive semi-definite. stretches: it is
+        evaluated at singular values raised to `clamp` (paper, sec. 4.2), the default for
+        St.Venant-Kirchhoff. clamp, the default for all others: negative eigenvalues become zero
+        (Teran, Sifakis, Irving, Fedkiw 2005). absolute: they change their sign (Chen et al. 2024).
     clamp : float, default 0.65
-        Newton with the projection stretches only: least singular value; the paper uses 0.5 to 0.8.
+        Newton with the projection stretches only: smallest singular value; the paper uses 0.5 to
+        0.8.
     precision : "single" or "double", optional
         "fast" only: precision of shapes and gradients while solving; objectives and inner products
-        are always summed in double precision. Default: single where settling decides and for
-        tolerances of 1e-6 and more, which takes half the time and changes the shapes by less than
-        the errors that these tests leave. Double if the mesh's units are so small or large that
+        are always summed in double precision. Default: single if settling decides and for
+        tolerances of 1e-6 and more, which takes half the time and changes shapes by less than the
+        errors that these tests leave. Double if the mesh's units are so small or large that
         energies would leave the range of single precision. A sample that rounding stops before it
         converges, as on soft bodies, continues in double precision.
     block : int, optional
-        Number of samples handed out together. They start from the samples of earlier blocks, see
-        `Schedule`: larger blocks keep more cores busy, smaller ones give better starts. Default 16
-        for "fast", 2 for "newton".
+        Number of samples that are solved together. They start from the samples of earlier blocks,
+        see `Schedule`: larger blocks keep more cores busy, smaller ones give better starts. Default
+        16 for "fast", 2 for "newton".
 
     Raises
     ------

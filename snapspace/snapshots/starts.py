@@ -17,10 +17,10 @@ from ..displacements import DisplacementRows
 FloatArray = NDArray[np.float64]
 Kernel = Literal["linear", "thin_plate_spline"]
 
-#: A start is interpolated from so many nearest samples. On the Dragon 64 and all of 300 give
+#: A start is interpolated from this many nearest samples. On the Dragon 64 and all of 300 give
 #: starts of the same quality, and a bound keeps the cost of a start constant.
 NEIGHBOURS = 64
-#: With so many samples per parameter, thin plates replace linear functions.
+#: From this many samples per parameter on, thin-plate splines replace linear functions.
 ENOUGH_FOR_PLATES = 4
 #: Largest sum of absolute weights of a trusted start; on the Dragon the sums are below 6.
 WILDEST_WEIGHTS = 10.0
@@ -70,14 +70,15 @@ def interpolation_weights(known: FloatArray, wanted: FloatArray) -> FloatArray:
 
 
 def _weights_of_distinct(points: FloatArray, wanted: FloatArray) -> FloatArray:
-    """Weights (j, k) of distinct points (k, p), by thin plates where there are enough points.
+    """Weights (j, k) of distinct points (k, p), by thin-plate splines if there are enough points.
 
-    Thin plates have half the error of linear functions, and on the Dragon save one in twenty
+    Thin-plate splines have half the error of linear functions, and on the Dragon save one in twenty
     evaluations. They need points in all directions, several times as many as parameters.
     """
     weights, steady = np.zeros((len(wanted), len(points))), np.zeros(len(wanted), bool)
     if len(points) >= ENOUGH_FOR_PLATES * points.shape[1]:
-        # thin plates fail for neighbours in one plane; near one, weights are large with both signs
+        # the splines fail for neighbours in one plane; near that case, weights are large with both
+        # signs
         with contextlib.suppress(np.linalg.LinAlgError):
             weights = _radial_weights(points, wanted, kernel="thin_plate_spline", degree=1)
             steady = np.abs(weights).sum(axis=1) < WILDEST_WEIGHTS
@@ -107,9 +108,9 @@ def lowest_start(
 ) -> FloatArray:
     """The guess (j, 3n) of lowest energy for each sample, for inputs (j, input_size).
 
-    Between distant poses an interpolated shape shrinks and turns inside out. There energies with a
-    barrier are infinite, and a solve may end in a minimum far from the others. Among equal guesses
-    the first one wins.
+    Between distant poses an interpolated shape shrinks and inverts. Then energies with a barrier
+    are infinite, and a solve may end in a minimum far from the others. Among equal guesses the
+    first one is used.
     """
     count = len(inputs)
     values = system.evaluate(

@@ -23,8 +23,8 @@ def worker_name() -> str:
 def for_worker(executor: Executor, name: str) -> dict[str, Any]:
     """Arguments of `executor.submit` that send a task to the worker of this name.
 
-    For dask's executor; if that worker is gone, the task goes to another one. Empty for other
-    executors, which cannot choose.
+    These are for dask's executor; if that worker is gone, the task goes to another one. Empty for
+    other executors, which cannot choose a worker.
     """
     if type(executor).__module__.startswith("distributed."):
         return {"workers": [name], "allow_other_workers": True}
