@@ -40,8 +40,8 @@ def finite_states(states: States, fewest: int, *, threads: int | None = None) ->
         dimension = states.subspace.dimension
         raise ValueError(
             f"reduce: {len(states) - finite.sum()} of {len(states)} snapshots have inverted tets "
-            f"once projected into {dimension} dimensions, where the energy of {material.title} is "
-            f"infinite, and a cubature needs {fewest} without; take a larger dimension or more "
+            f"once projected onto {dimension} dimensions, where the energy of {material.title} is "
+            f"infinite, and a cubature needs {fewest} without; use a larger dimension or more "
             "samples, or a material that tets may be inverted in"
         )
     return states.chosen(np.flatnonzero(finite))

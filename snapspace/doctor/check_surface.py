@@ -139,8 +139,8 @@ def _inward(volume: float) -> list[Finding]:
             fault=False,
             count=1,
             text="all faces are oriented inward",
-            meaning="filling turns them round; other programs may draw them dark",
-            cure="nothing; --fix turns them round",
+            meaning="filling flips them; other programs may draw them dark",
+            cure="nothing; --fix flips them",
             mended=True,
         )
     ]

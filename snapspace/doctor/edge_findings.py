@@ -85,7 +85,7 @@ def copy_findings(clean: Cleaned, unused: int) -> list[Finding]:
                     fault=True,
                     count=count,
                     text=text,
-                    meaning="they enclose nothing, and confuse what is inside",
+                    meaning="they enclose nothing, and make the inside ambiguous",
                     cure="drop them: --fix",
                     mended=True,
                 )
@@ -119,7 +119,7 @@ def _holes(holes: list[tuple[Hole, IndexArray | None]], sheet: bool) -> Finding:
     elif can:
         filling = f"closes {share}, and leaves the others to the winding number (fTetWild)"
     else:
-        filling = "closes none of them, and guesses it by the winding number (fTetWild)"
+        filling = "closes none of them, and guesses the inside by the winding number (fTetWild)"
     cures = [f"--fix closes {share}"] * (can > 0) + ["close them in a mesh editor"]
     if sheet:
         cures.append(AS_SHELL)
@@ -153,17 +153,17 @@ def _parts(count: int, group: NDArray[np.intp], share: FloatArray) -> Finding:
     text = f"it has {count} parts without a common vertex"
     if large > 1:
         first = int(np.flatnonzero(group == 1)[0])
-        text += f"; {large} of them are apart (face {first} is in the second largest)"
+        text += f"; {large} of them are separate (face {first} is in the second largest)"
     if dust:
-        text += f"; {dust} are apart and small"
+        text += f"; {dust} are separate and small"
     return Finding(
         name="components",
         fault=large > 1,
         count=count,
         text=text,
-        meaning="filling needs one solid: it refuses large parts that are apart, leaves out those "
-        f"below {DUST:.1%} of the area, and makes one solid of overlapping ones with fTetWild",
-        cure="join them, or remove those that are apart; eyes and clothes can follow the body with "
+        meaning="filling needs one solid: it refuses large separate parts, leaves out those below "
+        f"{DUST:.1%} of the area, and makes one solid of overlapping ones with fTetWild",
+        cure="join them, or remove separate parts; eyes and clothes can follow the body with "
         "`snapspace pose --surface FILE`",
         details={"areas": share[:100].tolist()},
     )
@@ -186,9 +186,9 @@ def _orientation(turn: NDArray[np.bool_], twisted: NDArray[np.bool_]) -> Finding
         name="flipped faces",
         fault=True,
         count=count,
-        text=f"{counted(count, 'face is', 'faces are')} oriented against the neighbours (the "
+        text=f"{counted(count, 'face is', 'faces are')} oriented against their neighbours (the "
         f"first: face {int(np.flatnonzero(turn)[0])})",
-        meaning="orientation says what is inside",
-        cure="turn them round: --fix",
+        meaning="orientation determines what is inside",
+        cure="flip them: --fix",
         mended=True,
     )

@@ -90,9 +90,7 @@ def mend_surface(
     turn, _, _ = orientation(edges_of(mended))
     if turn.any():
         mended[turn] = mended[turn][:, ::-1]
-        notes.append(
-            f"turned {counted(int(turn.sum()), 'face')} round to agree with the neighbours"
-        )
+        notes.append(f"flipped {counted(int(turn.sum()), 'face')} to agree with their neighbours")
     holes = closable_holes(used, mended) if close_holes else []
     fills = [fill for _, fill in holes if fill is not None]
     if fills:

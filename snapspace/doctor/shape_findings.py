@@ -41,8 +41,7 @@ def sliver_finding(shape: FloatArray) -> list[Finding]:
             fault=False,
             count=count,
             text=f"{counted(count, 'face is', 'faces are')} less than 1 % as high as long",
-            meaning="harmless: tets are made anew inside the surface, and normals are weighted "
-            "by area",
+            meaning="harmless: tets have their own faces, and normals are weighted by area",
             cure="nothing",
         )
     ]

@@ -132,7 +132,7 @@ def _check_membrane(material: Material, who: str) -> None:
         return
     *names, last = (one.__name__ for one in SHELLS)
     raise ValueError(
-        f"{who}: a shell cannot be made of {material.title}, which has no such form; take "
+        f"{who}: a shell cannot be made of {material.title}, which has no such form; use "
         f"{', '.join(names)} or {last}"
     )
 

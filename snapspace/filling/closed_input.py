@@ -90,7 +90,7 @@ def _mended(
         if not leave_open:
             raise
         closed = False
-        done.append(f"{left.fault.partition(':')[0]}, so inside is where the winding number says")
+        done.append(f"{left.fault.partition(':')[0]}, so the winding number determines the inside")
     notify(f"{'; '.join(done)}; `snapspace check` says more", MeshNotice, stacklevel=4)
     return mended.vertices, mended.faces, closed
 
@@ -111,7 +111,7 @@ def _one_part(points: FloatArray, triangles: IndexArray, *, who: str) -> IndexAr
         low, high = (pick(points[triangles[group == 1]], axis=(0, 1)) for pick in (np.min, np.max))
         center = ", ".join(f"{x:.4g}" for x in (low + high) / 2.0)
         raise NoSolidError(
-            f"{who}: the surface has {large} parts that are apart (the second largest: {faces} "
+            f"{who}: the surface has {large} separate parts (the second largest: {faces} "
             f"faces around ({center})), but one solid is needed; join them, or remove all but one"
         )
     if len(share) > 1:

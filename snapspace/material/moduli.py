@@ -46,7 +46,7 @@ def lame_of_young(
     if wrong.any():
         where, first = _first(poisson, wrong)
         raise ValueError(
-            f"{who}: poisson_ratio{where} is {first}, but it must be in [0, 0.5); take 0.49 for "
+            f"{who}: poisson_ratio{where} is {first}, but it must be in [0, 0.5); use 0.49 for "
             "a material that keeps its volume"
         )
     mu = young / (2 * (1 + poisson))

@@ -43,7 +43,7 @@ def check_closed(faces: IndexArray, *, who: str) -> None:
         raise InputError(
             who,
             f"neighbouring faces have opposite orientations at {turned.size} edges (the "
-            f"first between vertices {first} and {second}): orient all faces alike",
+            f"first between vertices {first} and {second}): orient all faces consistently",
         )
 
 

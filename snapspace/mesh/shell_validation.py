@@ -96,7 +96,7 @@ def _check_edges(triangles: IndexArray, *, who: str) -> None:
             who,
             f"triangle {place // 3} runs from vertex {first[place]} to {second[place]} as an "
             f"earlier one does: their orientations contradict each other at {int(again.sum())} "
-            f"edges; turn them round with {_CURE}, unless the surface has one side only",
+            f"edges; flip triangles with {_CURE}, unless the surface has only one side",
         )
 
 

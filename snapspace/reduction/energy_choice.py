@@ -47,7 +47,7 @@ def chosen_energy(
             body = f"a shell of {body}"
         raise ValueError(
             f"reduce: the energy of {body} is not a polynomial of degree four, so it has no exact "
-            "form; take energy='cubature', or tets of the material StVK"
+            "form; use energy='cubature', or tets of the material StVK"
         )
     if energy != "auto":
         return energy

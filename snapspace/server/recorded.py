@@ -43,7 +43,7 @@ def _checked_timeline(text: str, kind: str) -> dict[str, Any]:
     try:
         content: dict[str, Any] = json.loads(text)
     except (ValueError, RecursionError):
-        raise ValueError("the timeline is no JSON") from None
+        raise ValueError("the timeline is not JSON") from None
     own = timeline_of(content).kind
     if own != kind:
         raise ValueError(f"the timeline is of kind '{own}', but the model of '{kind}'")

@@ -41,7 +41,7 @@ def read_timeline(path: str | os.PathLike[str]) -> Timeline:
         try:
             content = json.loads(file.read_text(encoding="utf-8-sig"))
         except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
-            raise ValueError(f"this is no JSON: {error}") from None
+            raise ValueError(f"this is not JSON: {error}") from None
         return timeline_of(content)
 
 
@@ -82,7 +82,7 @@ def timeline_of(content: Any) -> Timeline:
     """The timeline of parsed JSON; ValueError as for `read_timeline`, without the file's name."""
     entries = as_object(content, "a timeline", known={"format", "version", "kind", "loop", "keys"})
     if entries.get("format") != FORMAT:
-        raise ValueError(f"this is no timeline: its format must be '{FORMAT}'")
+        raise ValueError(f"this is not a timeline: its format must be '{FORMAT}'")
     if entries.get("version") != VERSION:
         raise ValueError(
             f"the timeline has version {entries.get('version')}, but this Snapspace reads {VERSION}"

@@ -105,7 +105,7 @@ ODD = {
     "parts apart": Odd(
         surface=together(block(), block(y=3.0)),
         faults=("components",),
-        said="has 2 parts that are apart (the second largest: 320 faces",
+        said="has 2 separate parts (the second largest: 320 faces",
     ),
     "dust beside it": Odd(
         surface=together(block(), block(x=2.2, scale=0.02)),

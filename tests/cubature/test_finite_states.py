@@ -61,4 +61,4 @@ def test_too_few_finite_states_name_the_reason(
     with pytest.raises(ValueError, match="11 of 20 snapshots have inverted tets once proj") as told:
         train_cubature(problem, subspace, q, hessian)
     assert "the energy of symmetric Dirichlet is infinite" in str(told.value)
-    assert "needs 10 without; take a larger dimension" in str(told.value)
+    assert "needs 10 without; use a larger dimension" in str(told.value)

@@ -138,7 +138,7 @@ def test_a_scan_with_a_bent_hole_is_filled_by_the_winding_number(barrel: Surface
     x, _, z = ((centers - low) / (high - low)).T
     kept = faces[~((x > 0.7) & (z > 0.2) & (z < 0.8))]
     kept[::9] = kept[::9, ::-1]
-    with pytest.warns(MeshNotice, match=r"turned \d+ faces round.*where the winding number says"):
+    with pytest.warns(MeshNotice, match=r"flipped \d+ faces.*winding number determines"):
         mesh = fill_surface(vertices, kept, mend=True, **COARSE)
     assert mesh.volume == pytest.approx(enclosed_volume(*barrel), rel=0.15)
 

@@ -64,7 +64,7 @@ def test_a_part_that_is_too_thin_is_an_error() -> None:
 def test_two_solids_are_refused(barrel: Surface) -> None:
     vertices, faces = surface_of(bar(4, 2, 2))
     two = np.vstack([vertices, vertices + np.array([20.0, 0.0, 0.0])])
-    with pytest.raises(ValueError, match="stuff_surface: the surface has 2 parts that are apart"):
+    with pytest.raises(ValueError, match="stuff_surface: the surface has 2 separate parts"):
         stuff_surface(two, np.vstack([faces, faces + len(vertices)]), edge_length=0.02)
 
 

@@ -188,5 +188,5 @@ def test_youngs_modulus_must_be_positive(kind: type[Material], youngs_modulus: f
 
 @pytest.mark.parametrize("poisson_ratio", [-0.1, 0.5, math.nan])
 def test_poisson_ratio_must_be_below_a_half(kind: type[Material], poisson_ratio: float) -> None:
-    with pytest.raises(ValueError, match=r"poisson_ratio is .*in \[0, 0\.5\); take 0\.49"):
+    with pytest.raises(ValueError, match=r"poisson_ratio is .*in \[0, 0\.5\); use 0\.49"):
         kind.from_young(youngs_modulus=1.0, poisson_ratio=poisson_ratio)

@@ -134,7 +134,7 @@ def test_later_regions_win_and_factors_multiply() -> None:
         ({"model": "arap", "lam": 1}, "material: unknown entry 'lam'; known are model, mu"),
         ({"young": 1}, "material: 'young' also needs the entry 'poisson'"),
         ({"poisson": 0.3}, "material: 'poisson' also needs the entry 'young'"),
-        ({"young": 1, "poisson": 0.5}, r"poisson_ratio is 0.5, but .* take 0.49"),
+        ({"young": 1, "poisson": 0.5}, r"poisson_ratio is 0.5, but .* use 0.49"),
         ({"young": -1, "poisson": 0.3}, "youngs_modulus is -1.0, but it must be positive"),
         ({"model": "stvk", "young": 1, "mu": 1}, "'mu' and 'young' say the same thing"),
         ({"lam": 1, "young": 1}, "'lam' without 'model' means stvk, .* no 'young'; name the model"),

@@ -114,7 +114,7 @@ BAD: dict[str, tuple[dict[str, Any], str]] = {
     ),
     "orientation": (
         {"triangles": [[0, 1, 2], [0, 3, 2]]},
-        "triangle 1 runs from vertex 2 to 0 as an earlier one does: .* turn them round with .*"
+        "triangle 1 runs from vertex 2 to 0 as an earlier one does: .* flip triangles with .*"
         "snapspace check FILE --fix OUT",
     ),
     "unused": (

@@ -105,7 +105,7 @@ def test_a_file_gives_the_timeline_back(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"format": "other"}, "no timeline: its format must be 'snapspace-timeline'"),
+        ({"format": "other"}, "not a timeline: its format must be 'snapspace-timeline'"),
         ({"version": 2}, "has version 2, but this Snapspace reads 1"),
         ({"kind": "film", "keys": [{"time": 0, "weights": {}}]}, "unknown kind 'film'; known are"),
         ({"loop": 1}, "loop must be true or false"),
@@ -137,7 +137,7 @@ def test_other_content_is_refused_by_its_place(
 def test_what_is_no_json_is_refused(tmp_path: Path) -> None:
     for content in (b"{", b"\xff\xfe", b"[" * 100_000):
         (tmp_path / "a.json").write_bytes(content)
-        with pytest.raises(ValueError, match=r"a\.json: this is no JSON"):
+        with pytest.raises(ValueError, match=r"a\.json: this is not JSON"):
             read_timeline(tmp_path / "a.json")
     with pytest.raises(ValueError, match="there is no such file"):
         read_timeline(tmp_path / "b.json")
