@@ -29,8 +29,8 @@ def page_app(settings: ServerSettings, *, hosts: Container[str] = LOCAL) -> Star
     """Serves requests that `Guard` lets through.
 
     GET / is the page, /model the model of the settings, and /mesh/ID/NUMBER and /model/ID/NUMBER
-    are those of a workspace. /page/ID/NUMBER is a page in one file that was asked for.
-    POST /mesh takes uploads, and /live is the websocket, see `messages`.
+    are those of a workspace. /page/ID/NUMBER is a requested page in one file. POST /mesh takes
+    uploads, and /live is the websocket, see `messages`.
 
     Parameters
     ----------

@@ -13,7 +13,7 @@ from .slow_headers import PromptHeaders
 
 #: How long Ctrl-C waits for connections to end.
 GRACE_SECONDS = 1
-#: A page that is silent for longer is gone. Tunnels and machines that wake up may be slow.
+#: A page that is silent for longer counts as gone. Tunnels and machines that wake up may be slow.
 SILENCE_SECONDS = 90
 
 

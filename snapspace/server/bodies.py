@@ -1,4 +1,4 @@
-"""problem_body, mesh_body, model_body: bodies from files, and of models."""
+"""problem_body, mesh_body, model_body: bodies from files and from models."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ MESH_SUFFIXES = (*TET_SUFFIXES, *SURFACE_SUFFIXES)
 def problem_body(path: Path, *, filling: SurfaceFilling | None = None) -> Body:
     """Mesh, handles and surface of a problem file; ValueError if one of them cannot be read.
 
-    A surface without tets is filled, if it is not a shell.
+    A surface without tets is filled unless it is a shell.
     """
     return with_notices(lambda: _problem_body(path, filling), folder=path.parent)
 
@@ -87,18 +87,18 @@ def mesh_body(
         Called with "reading" before the file is read and, for a surface, with the stages of
         `SurfaceFilling.fill`.
     filling : SurfaceFilling, optional
-        How to fill a surface. Default: with quick tets, unless it is open: then it is a shell of
-        the usual thickness.
+        How to fill a surface. Default: with quick tets; an open surface becomes a shell of the
+        usual thickness instead.
     thickness : float, optional
-        Of the shell that a surface becomes, open or closed.
+        Thickness of the shell that a surface becomes, open or closed.
     read : callable, optional
         Called with a surface that has been read, before it is filled.
 
     Raises
     ------
     ValueError
-        If the file cannot be read or filled, or is no surface of a shell; the message begins with
-        its path.
+        If the file cannot be read or filled, or cannot become a shell; the message begins with its
+        path.
     """
     stage("reading")
     return read_mesh(path, filling=filling, thickness=thickness)(Opening(stage, read))
@@ -107,7 +107,7 @@ def mesh_body(
 def read_mesh(
     path: Path, *, filling: SurfaceFilling | None = None, thickness: float | None = None
 ) -> Callable[[Opening], Body]:
-    """Reads a mesh file; what it returns makes the body, and fills a surface.
+    """Reads a mesh file; the returned function makes the body, and fills a surface.
 
     Arguments and ValueErrors are as for `mesh_body`; only filling may fail later.
     """

@@ -18,19 +18,19 @@ from ..reduction import ReducedModel
 
 @dataclass(frozen=True, kw_only=True)
 class Body:
-    """A mesh, with its files and, where there is one, its problem.
+    """A mesh, with its files and its problem, if it has one.
 
     name : name that is shown and given to files
     mesh : TetMesh, or ShellMesh of the surface
     file : Path of the tets, or None if no file of the user has them
     folder : Path of the folder where files are saved
     problem : PosingProblem with the initial handles, or None
-    surface : EmbeddedSurface that was filled, shown in place of the tets' surface; or None
+    surface : EmbeddedSurface that was filled, shown instead of the tets' surface; or None
     surface_file : Path of the surface, or None if no file of the user has it
-    up : axis that points up, or None if no file says it and it is no surface
+    up : axis that points up, or None if no file says so and the body has no surface file
     mirror : MirrorPlane that a file gives, or None
     painted : by the name of a handle, the vertices of the surface where it was painted
-    material : Material to begin with, or None for the usual one
+    material : initial Material, or None for the usual one
     notices : what was mended or left out when the mesh was made, or is not shown, for the reader
     model : ReducedModel that the body came from, or None
     """
@@ -53,12 +53,12 @@ class Body:
 def with_notices(
     make: Callable[[], Body], *, folder: Path | None = None, earlier: Sequence[str] = ()
 ) -> Body:
-    """The body that `make` makes, with the notices meanwhile, each once and without the folder.
+    """The body that `make` makes, with the notices given meanwhile, each once, without folders.
 
-    Before them come the `earlier` ones.
+    The `earlier` notices come first.
 
-    Where quick tets fail, fTetWild mends the surface again. What of the surface's own materials is
-    not shown is one more notice.
+    Notices may repeat, since fTetWild mends the surface again if quick tets fail. One more notice
+    says what is not shown of the surface's own materials.
     """
     with collected_notices() as notices:
         body = make()

@@ -23,7 +23,7 @@ class BodyChoice:
         self._opened = self._last = opened
 
     def of(self, thickness: float | None) -> Body:
-        """The shell of this thickness, or with None the body as it was opened.
+        """The shell of this thickness, or the body as it was opened for None.
 
         ValueError for tets without a surface, and as for `ShellMesh`.
         """
@@ -37,7 +37,7 @@ class BodyChoice:
 
 
 def shown_thickness(mesh: Mesh) -> float | None:
-    """The thickness of a shell, of triangles that differ the mean; None for a solid."""
+    """The thickness of a shell, the mean if triangles differ; None for a solid."""
     return float(np.mean(mesh.thickness)) if isinstance(mesh, ShellMesh) else None
 
 

@@ -1,4 +1,4 @@
-"""BodySession: handles, parts, models and files that a page makes of one body."""
+"""BodySession: handles, parts, models and files that a page makes from one body."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ class BodySession:
         report: Reporter,
         publish: Publish,
     ) -> Computation:
-        """The computation that `Compute` asks for, with the handles and parts chosen last.
+        """The computation for a `Compute` message, with the handles and parts chosen last.
 
         ValueError if it cannot be done.
         """
@@ -152,7 +152,7 @@ class BodySession:
         report: Reporter,
         publish: Publish,
     ) -> Computation:
-        """The computation that `Extend` asks for, which starts from a model of fewer handles."""
+        """The computation for an `Extend` message, which starts from a model of fewer handles."""
         usual = messages.Compute(
             request=0, target_error=_target_of(model), seed=0, stiffness=problem.stiffness
         )
@@ -208,7 +208,7 @@ class BodySession:
         return self._saved.save(
             self.body,
             problem,
-            # a model that blends poses is of no handles
+            # a model that blends poses has no handles
             self.recorded(model, order) if isinstance(model, PosingModel) else None,
             name=order.name,
             request=order.request,
@@ -218,7 +218,7 @@ class BodySession:
         )
 
     def recorded(self, model: ReducedModel, order: messages.Save | messages.Export) -> ReducedModel:
-        """The model as files and pages keep it; ValueError for an invalid timeline."""
+        """The model as files and pages store it; ValueError for an invalid timeline."""
         self._settle()
         others, plane = self._record_of(model), self.mirroring.plane
         if plane is not None:
@@ -239,7 +239,7 @@ class BodySession:
 
     @property
     def _stiffness(self) -> float:
-        """That of the last computation or problem file, else the usual one for the mesh."""
+        """The stiffness of the last computation or problem file, or the usual one for the mesh."""
         return (
             usual_stiffness(self.body.mesh, fitted_material(self._given, self.body.mesh))
             if self._problem is None

@@ -17,7 +17,7 @@ from .solved_samples import SolvedSamples
 
 Publish = Callable[[Growth, float], None]
 
-#: With more samples a computation would take hours, or more memory than there is.
+#: More samples would take hours, or more memory than is available.
 MOST_SAMPLES = 20_000
 
 
@@ -37,7 +37,7 @@ class Computation:
     start : PosingModel or None
         A model with other handles to start from, see `growing_models`.
     surface : EmbeddedSurface or None
-        The surface that the models show in place of the tets' surface.
+        The surface that the models show instead of the tets' surface.
     publish : callable
         Called with each model and the seconds since the computation began.
 
@@ -67,7 +67,7 @@ class Computation:
         self._error: float | None = None  # error of the newest model
 
     def run(self) -> None:
-        """Computes all models; raises the ValueErrors of the numerics."""
+        """Computes all models; raises the ValueErrors of the computation."""
         order = self._order
         with self._queue.turn(self._report_waiting):
             self._report.restart()

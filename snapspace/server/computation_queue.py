@@ -55,7 +55,7 @@ class ComputationQueue:
                 self._changed.notify_all()
 
     def _wait_for_earlier(self, ticket: object) -> int:
-        """How many come first; if there are any, waits for a change or `POLL_SECONDS`."""
+        """Number of earlier ones; if there are any, waits for a change or `POLL_SECONDS`."""
         with self._changed:
             if self._queue[0] is not ticket:
                 self._changed.wait(POLL_SECONDS)

@@ -1,4 +1,4 @@
-"""Exports: pages in one file that a page has asked for."""
+"""Exports: pages in one file that a page has requested."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .recorded import recorded
 
 
 class Exports:
-    """Keeps the last model that a page asked to export; its page is made when it is fetched."""
+    """Stores the last model that a page asked to export; its page is made when it is fetched."""
 
     def __init__(self) -> None:
         self._last: tuple[int, str, ReducedModel] | None = None
@@ -19,16 +19,16 @@ class Exports:
     def keep(
         self, order: Export, models: Models, session: BodySession | None, *, title: str
     ) -> None:
-        """Keeps the model of an order, with what was made on its page.
+        """Stores the model of an order, with the work of its page.
 
         Parameters
         ----------
         order : Export
         models : Models
         session : BodySession or None
-            That of the body whose handles are chosen.
+            Session of the body whose handles are chosen.
         title : str
-            Heading of the page without a session; else it is the name of the body.
+            Heading of the page without a session; otherwise the name of the body is used.
 
         Raises
         ------
@@ -43,7 +43,7 @@ class Exports:
         self._last = order.model, name, model
 
     def content(self, number: int) -> bytes | None:
-        """The page with the model of a number; None if another one was asked for since."""
+        """The page with the model of this number; None if another one was requested since."""
         if self._last is None or self._last[0] != number:
             return None
         _, name, model = self._last

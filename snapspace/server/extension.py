@@ -1,4 +1,4 @@
-"""Extension: chosen handles, with points that were kept as further ones."""
+"""Extension: chosen handles, with kept points as further handles."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Extension:
 
     problem : PosingProblem
     shown : all its handles, as the page shows them
-    kept : those of the points, with their own bounds
+    kept : the handles of the points, with their own bounds
     """
 
     problem: PosingProblem
@@ -43,7 +43,7 @@ def extension_of(
     ----------
     problem, points, surface : as for `with_points`, which raises the ValueErrors
     regions : SurfaceRegions or None
-        If the body has its own surface, the regions of that.
+        The regions of the body's own surface, if it has one.
     painted : by the name of a handle, the vertices of that surface where it was painted
     """
     extended = with_points(problem, surface, points)
@@ -56,5 +56,5 @@ def extension_of(
 
 
 def _bounded(choice: HandleChoice, bounds: np.ndarray) -> HandleChoice:
-    """The choice with its bounds, whatever those of the other handles are."""
+    """The choice with its own bounds, independent of those of other handles."""
     return replace(choice, translation=as_vector(bounds[:3]), angle=as_vector(bounds[3:]))

@@ -71,12 +71,12 @@ def mesh_workspace(
     Parameters
     ----------
     empty : Workspace
-        That of a page without a mesh.
+        The workspace of a page without a mesh.
     body : Body
     material : Material or None
-        To begin with; None: the usual one.
+        The initial material; None: the usual one.
     regions : SurfaceRegions or None
-        If the body has its own surface, the regions of that.
+        The regions of the body's own surface, if it has one.
     mesh : str
         The address of the packed mesh.
     """
@@ -134,7 +134,7 @@ def axis_up(
     body: Body | None,
     surface: UserSurface | None,
 ) -> str:
-    """The axis that points up: of the page's choices, else of the server's settings or the file."""
+    """The axis that points up, from the page's choices, the server's settings or the file."""
     if kept is not None:
         return kept.up
     if settings.up is not None:

@@ -1,4 +1,4 @@
-"""GivenModel: the model that a page's body came from, which the page can show again."""
+"""GivenModel: the model that a page's body comes from, which the page can show again."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .models import Models
 
 
 class GivenModel:
-    """Gives a page the model of its body, until another one is computed; nothing without one.
+    """Gives a page the model of its body, if any, until another one is computed.
 
     Parameters
     ----------
@@ -23,7 +23,7 @@ class GivenModel:
         self._content = b""
 
     def pack(self) -> None:
-        """Packs the model if that was not done yet, which takes a moment."""
+        """Packs the model, unless it is packed already; this takes a moment."""
         if self._model is not None and not self._content:
             self._content = packed(self._model, name=self._name)
 

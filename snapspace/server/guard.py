@@ -77,7 +77,7 @@ class Guard:
         hosts, origins = headers.getlist("host"), headers.getlist("origin")
         if len(hosts) != 1 or _name(hosts[0]) not in self._hosts:
             return "snapspace: this server does not go by that name; use the address it printed"
-        # browsers send one Origin; with two, another reader of the request might use the other one
+        # browsers send one Origin; with two, different parsers might use different ones
         if len(origins) > 1 or any(origin != f"http://{hosts[0]}" for origin in origins):
             return "snapspace: requests from other pages are refused"
         given = [part[6:] for part in query.split(b"&") if part.startswith(b"token=")]

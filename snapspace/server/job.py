@@ -15,7 +15,7 @@ class Job:
     Parameters
     ----------
     work : callable
-        Ends as at Ctrl-C once `stop` was called, see `stoppable`.
+        It ends as at Ctrl-C once `stop` was called, see `stoppable`.
     failed : callable
         Called with the error if the work raises one, unless the job was stopped.
     """
@@ -23,7 +23,7 @@ class Job:
     def __init__(self, work: Callable[[], None], *, failed: Callable[[Exception], None]) -> None:
         self._stop = threading.Event()
         self._work, self._failed = work, failed
-        # a daemon: compiled work that cannot be stopped must not delay the end of the program
+        # a daemon, since compiled work that cannot be stopped must not delay the end of the program
         self._thread = threading.Thread(target=self._run, name=ABANDONABLE, daemon=True)
         self._thread.start()
 
@@ -33,11 +33,11 @@ class Job:
         return self._thread.is_alive()
 
     def stop(self) -> None:
-        """Asks the work to stop, and returns at once."""
+        """Requests the end of the work, and returns at once."""
         self._stop.set()
 
     def wait(self, seconds: float) -> bool:
-        """Waits for the work to end, at most so many seconds; returns whether it has ended."""
+        """Waits at most this many seconds for the work to end; returns whether it has ended."""
         self._thread.join(seconds)
         return not self.running
 

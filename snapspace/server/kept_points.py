@@ -27,8 +27,8 @@ def with_points(
     """The problem with a handle around each point.
 
     A handle has the tet vertices within `RADIUS` that are connected to the point and belong to no
-    other handle; where there are fewer than 3, those of the tets around them. Its motions have the
-    bounds that are common to the problem's handles, or larger ones if the point was pulled farther.
+    other handle; if these are fewer than 3, it has those of the tets around them. Its motions have
+    the common bounds of the problem's handles, or larger ones if the point was pulled farther.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def _vertices_around(
     near[followed] = True
     near &= free
     around = np.flatnonzero(near & _connected(near, followed, mesh))
-    if len(around) < FEWEST:  # the tets are large: those at the point
+    if len(around) < FEWEST:  # the tets are large: use those at the point
         beside = np.unique(mesh.cells[np.isin(mesh.cells, around).any(axis=1)])
         around = beside[free[beside]].astype(np.intp)
     if len(around) < FEWEST:

@@ -15,7 +15,7 @@ from .wire import decoded, encoded, request_of
 from .workspace import Workspace
 from .workspaces import Workspaces
 
-#: In bytes. A message with all vertices of a mesh of a million vertices has 8 MB.
+#: Largest message in bytes. All vertex indices of a mesh with a million vertices take 8 MB.
 LARGEST_MESSAGE = 16 * 2**20
 #: Close code when another page takes over the workspace. The page reads this number.
 TAKEN_OVER = 4001
@@ -24,8 +24,8 @@ TAKEN_OVER = 4001
 def live_endpoint(workspaces: Workspaces) -> Callable[[WebSocket], Awaitable[None]]:
     """Answers connections of pages.
 
-    Each page has its workspace: a new one or, with workspace=ID in the query, that of a page that
-    was connected before.
+    Each page has its workspace: a new one or, with workspace=ID in the query, that of an earlier
+    connection.
     """
 
     async def live(socket: WebSocket) -> None:

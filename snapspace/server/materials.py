@@ -44,10 +44,10 @@ def chosen_material(
     given : Material or None
         The material of the problem file; None: it has none.
     mesh : TetMesh or ShellMesh
-        What is made of it.
+        The body.
     kind : str or None
-        The kind of another material with the same Lame parameters; None: that of `given`, or the
-        usual one of the body.
+        The kind of another material with the same Lame parameters; None: the kind of `given`, or
+        the usual one of the body.
     poisson : float or None
         Poisson's ratio, from 0 to 0.49, with the shear modulus of `given`; None: that of `given`.
 
@@ -75,15 +75,16 @@ def chosen_material(
 
 
 def usual_kind(given: Material | None, *, shell: bool) -> str:
-    """Kind of the material that a solid or a shell begins with."""
+    """Kind of the initial material of a solid or a shell."""
     usual = default_material(surface=shell) if given is None else given
     return usual.kind if not shell or isinstance(usual, SHELLS) else DEFAULT_MATERIAL.kind
 
 
 def fitted_material(material: Material | None, mesh: Body) -> Material:
-    """The material for a body: the usual one without another.
+    """The material for a body; the usual one if none is given.
 
-    Shells have one that they can be made of, and other cells the means of moduli.
+    A shell gets a material with a form for shells. Moduli that were given for other cells are
+    replaced by their means.
     """
     if material is None:
         return default_material(surface=isinstance(mesh, ShellMesh))

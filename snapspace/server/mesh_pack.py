@@ -23,9 +23,9 @@ def packed_mesh(shown: Body | UserSurface, *, up: str) -> bytes:
     Parameters
     ----------
     shown : Body or UserSurface
-        Of a surface that is not filled yet, or a body with its own surface, all vertices and faces
-        of that are packed: they are the same. Otherwise all vertices of the tets, also those
-        inside, and the faces of their surface.
+        For a surface that is not filled yet, or a body with its own surface, all vertices and faces
+        of that surface are packed, so both are the same. Otherwise these are all vertices of the
+        tets, including interior ones, and the faces of their surface.
     up : "x", "y" or "z"
         Axis that points up at first.
 

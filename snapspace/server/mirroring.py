@@ -25,7 +25,7 @@ AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
 class Mirroring:
-    """Mirrors the handles of one body across the plane that its file, the page or its shape gives.
+    """Mirrors the handles of one body across a plane from its file, the page or its shape.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ class Mirroring:
         self._found: dict[str | None, MirrorPlane] = {}
         #: The plane that the page or the body's file gives; None: that of the shape.
         self.plane: MirrorPlane | None = body.mirror
-        self._about: tuple[object, dict[str, Any]] | None = None  # of the last handles and plane
+        self._about: tuple[object, dict[str, Any]] | None = None  # for the last handles and plane
 
     def mirrored(self, order: messages.Mirror) -> messages.Mirrored:
         """The mirror image of a handle; the plane becomes that of the body.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ..problem import PosingProblem, Problem, is_quartic
 from ..reduction import PosingModel, ReducedModel
 
-#: A page may still be fetching a model when the next one is added.
+#: Number of stored models: a page may still be fetching a model when the next one is added.
 KEPT = 2
 
 
@@ -23,7 +23,7 @@ class KeptModel:
 class Models:
     """The last `KEPT` models.
 
-    Numbers count from 1 and continue after `clear`, so that an address never means another model.
+    Numbers start at 1 and continue after `clear`, so that an address never refers to another model.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ class Models:
         self._count = 0
 
     def add(self, model: ReducedModel, content: bytes) -> int:
-        """Keeps a model, drops the oldest one, and returns the number."""
+        """Stores a model, drops the oldest one, and returns the new model's number."""
         self._count += 1
         self._kept = (*self._kept[1 - KEPT :], KeptModel(self._count, model, content))
         return self._count
@@ -49,7 +49,7 @@ class Models:
 
     @property
     def current(self) -> ReducedModel | None:
-        """The newest model, or the one that the page began with; None if there is neither."""
+        """The newest model, or the page's initial one; None if there is neither."""
         return self._own if self.newest is None else self.newest.model
 
     def is_of(self, problem: Problem) -> bool:
@@ -74,7 +74,7 @@ class Models:
         return kept.model
 
     def clear(self) -> None:
-        """Drops all models, also the one that the page began with."""
+        """Drops all models, including the page's initial one."""
         self._own, self._kept = None, ()
 
 

@@ -1,4 +1,4 @@
-"""Opening: what a page is told while its body is read and filled."""
+"""Opening: reports to a page while its body is read and filled."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from .user_surface import UserSurface
 
 @dataclass(frozen=True)
 class Opening:
-    """Takes what is known of a body before it is there.
+    """Receives what is known about a body before it exists.
 
-    stage : called with a stage, and where it is counted with what is done and all there is
+    stage : called with a stage and, if it is counted, with the numbers done and in all
     read : called with a surface that has been read, before it is filled with tets
     """
 

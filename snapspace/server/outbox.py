@@ -50,7 +50,7 @@ class Outbox:
 
 
 def _replaces(newer: Item, older: Item) -> bool:
-    """Whether the newer item makes the older one useless: same stage of the same work."""
+    """Whether the newer item makes the older one obsolete: same stage of the same work."""
     if not isinstance(newer, Progress) or not isinstance(older, Progress):
         return False
     return (newer.request, newer.stage) == (older.request, older.stage)

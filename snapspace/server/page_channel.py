@@ -12,7 +12,7 @@ Put = Callable[..., Any]
 
 
 class PageChannel:
-    """Sends messages to the connected page; from any thread.
+    """Sends messages to the connected page, from any thread.
 
     While no page is connected, messages are dropped, but the state is remembered: the workspace,
     its newest model, and the progress of the work.
@@ -44,14 +44,14 @@ class PageChannel:
             self._put = None
 
     def connect(self, put: Put, present: Callable[[Workspace], Workspace]) -> None:
-        """Connects a page that is back: sends the state first, and then new messages.
+        """Connects a page that is back; sends the state first, then new messages.
 
         Parameters
         ----------
         put : callable
             As above.
         present : callable
-            Takes the workspace as it was first sent, and returns it as it is now.
+            Maps the workspace as it was first sent to its current state.
         """
         with self._lock:
             self._put = put

@@ -1,4 +1,4 @@
-"""page_computation: the work that a page orders by `Compute` or `Extend`."""
+"""page_computation: the work for a page's `Compute` or `Extend` message."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def page_computation(
     Raises
     ------
     ValueError
-        If it cannot be done: the message names the reason.
+        If it cannot be done. The message names the reason.
     """
     report = Reporter(send, order.request)
     publish = Publishing(

@@ -11,7 +11,7 @@ from .job import Job
 from .messages import Polish
 from .polishing import Polishing
 
-#: Longest wait for a stopped polish, which ends with its current iteration.
+#: Longest wait for a stopped polish, which ends after its current iteration.
 STOP_SECONDS = 10.0
 
 
@@ -50,7 +50,7 @@ class PolishJobs:
         self._job = Job(work, failed=lambda error: self._failed(order.request, error))
 
     def stop(self) -> Job | None:
-        """Asks the running polish to stop, and returns its job, if there is one."""
+        """Stops the running polish soon, and returns its job, if there is one."""
         if self._job is not None:
             self._job.stop()
         return self._job

@@ -10,7 +10,7 @@ from ..reduction import ReducedModel
 from ..session import BlendingSession, PosingSession
 from .messages import Polish, Polished
 
-#: More would let a page keep this machine busy.
+#: Largest number of iterations: more would let a page keep this machine busy.
 MOST_ITERATIONS = 1000
 
 

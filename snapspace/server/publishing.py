@@ -30,7 +30,7 @@ class Publishing:
     name : heading of the page
     up : callable that gives the axis that points up
     owners, mirror : callables, called with each model
-    kept : points that the models have as further handles
+    kept : points that are further handles of the models
     start : the model of fewer handles that the page shows before the first one; or None
     address : callable that gives the address of a model by its number
     send : callable that sends a message to the page
@@ -48,12 +48,12 @@ class Publishing:
     start: PosingModel | None = None
 
     def __call__(self, growth: Growth, seconds: float) -> None:
-        """Packs a model, and tells the page where it is."""
+        """Packs a model, and sends its address to the page."""
         model = growth.model
         assert isinstance(model, PosingModel)
         same, newest = self.models.is_of(model.problem), self.models.newest
         if growth.step is None and same:
-            return  # computed again: the page's model is better than a first one
+            return  # computed again: the page's model is better than the preliminary one
         before = newest.model if newest and same else self.start
         assert before is None or isinstance(before, PosingModel)
         content = packed(
@@ -82,8 +82,8 @@ class Publishing:
 
 
 def _sample_count(growth: Growth) -> int:
-    """Samples that the model is made of, also those of a model that it started from, or judged by.
+    """Number of samples that made or judged the model, with those of the model it started from.
 
-    `growth.snapshots` has only those that were solved for it.
+    `growth.snapshots` has only the samples that were solved for it.
     """
     return len(growth.model.training_parameters) + int(growth.held_out.sum())

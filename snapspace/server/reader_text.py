@@ -1,4 +1,4 @@
-"""Error messages for readers who see a page and no program."""
+"""Error messages for readers who see a page instead of a program."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def for_reader(message: str) -> str:
 
 
 def failure(request: int, error: Exception) -> Failed:
-    """The message that a request failed, in one line; a fault of the program is logged."""
+    """The message that a request failed, in one line; bugs are logged."""
     if not isinstance(error, MemoryError | ValueError):
         logging.getLogger(__name__).error("request %d failed", request, exc_info=error)
     return Failed(request=request, message=_text_of(error).replace("\n", " "))

@@ -1,4 +1,4 @@
-"""recorded: a model with what was made on its page, for files and pages."""
+"""recorded: a model with the work of its page, for files and pages."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def recorded(model: ModelOf, *, up: str | None, timeline: str | None, **others: 
 
 
 def _checked_timeline(text: str, kind: str) -> dict[str, Any]:
-    """The content of a timeline file, parsed; ValueError unless it is one of this kind."""
+    """The content of a timeline file, parsed; ValueError unless it is a timeline of this kind."""
     try:
         content: dict[str, Any] = json.loads(text)
     except (ValueError, RecursionError):

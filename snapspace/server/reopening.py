@@ -1,4 +1,4 @@
-"""Reopening: a surface that becomes a shell or a solid, whichever it is now."""
+"""Reopening: converts a surface to a shell or to a solid."""
 
 from __future__ import annotations
 
@@ -17,9 +17,10 @@ from .user_surface import UserSurface
 def reopening(
     surface: UserSurface, thickness: float | None, filling: SurfaceFilling | None
 ) -> Callable[[Opening], Body]:
-    """Makes the shell of a thickness, or with None the solid inside the surface.
+    """Makes the shell of a thickness, or the solid inside the surface for None.
 
-    ValueError at once for a surface or a thickness of no shell; filling it may fail later.
+    ValueError at once if the surface or the thickness is invalid for a shell; filling may fail
+    later.
     """
     if thickness is not None:
         shell = surface.shell(thickness)
@@ -53,12 +54,13 @@ def surface_of(body: Body) -> UserSurface:
 def in_another_form(
     kept: messages.Keep, thickness: float | None, given: Material | None
 ) -> messages.Keep:
-    """The choices for a body that becomes a shell of a thickness, or with None a solid.
+    """The choices for a body that becomes a shell of a thickness, or a solid for None.
 
     Parameters
     ----------
     given : Material or None
-        That of the body; None: the usual one. What is usual for the other form takes its place.
+        Material of the body; None: the usual one. The usual one of the old form is replaced by that
+        of the new form.
     """
     before, after = (usual_kind(given, shell=t is not None) for t in (kept.thickness, thickness))
     material = after if kept.material == before else kept.material

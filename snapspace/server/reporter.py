@@ -1,4 +1,4 @@
-"""Reporter: sends the progress of one computation, no more often than a page can show."""
+"""Reporter: sends the progress of one computation, only as often as a page can show it."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Reporter:
         return time.perf_counter() - self._begin
 
     def restart(self) -> None:
-        """Starts the time again: the work begins now, after waiting."""
+        """Restarts the clock: the work begins now, after waiting."""
         self._begin = time.perf_counter()
         self._last = 0.0
 

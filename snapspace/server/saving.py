@@ -1,4 +1,4 @@
-"""SavedFiles: saves what a page has made beside its mesh, and never overwrites other files."""
+"""SavedFiles: saves a page's work beside its mesh, and never overwrites other files."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class SavedFiles:
         mirror: MirrorPlane | None = None,
         painted: Sequence[HandleChoice] = (),
     ) -> Saved:
-        """Writes problem file and model, and mesh and surface if they are in no file yet.
+        """Writes problem file and model, and mesh and surface unless these are in a file already.
 
         Parameters
         ----------
@@ -127,7 +127,7 @@ class SavedFiles:
 
     @contextlib.contextmanager
     def _reserved(self, folder: Path, name: str, suffixes: list[str]) -> Iterator[str]:
-        """Reserves the name, or the first numbered one that no other file has, for the block."""
+        """Reserves the name, or the first numbered one that is free, for the block."""
         for number in itertools.count(1):
             stem = name if number == 1 else f"{name}-{number}"
             paths = [folder / f"{stem}{suffix}" for suffix in suffixes]
@@ -139,11 +139,11 @@ class SavedFiles:
             self._drop_empty(paths)
 
     def _reserve(self, paths: list[Path]) -> bool:
-        """Makes empty files of these names; False, and none of them, if one is not its own."""
+        """Makes empty files with these names; False, and makes none, if another file has one."""
         try:
             for path in paths:
                 if not self._is_own(path):
-                    path.open("x").close()  # fails if it exists, even as a dangling link
+                    path.open("x").close()  # fails if the file exists, even as a dangling link
                     self._own[path] = _stamp(path)
         except FileExistsError:
             self._drop_empty(paths)
@@ -185,14 +185,14 @@ def checked_name(name: str) -> str:
 
 
 def plain_name(name: str) -> str:
-    """A file name made safe: without folders, and with other characters replaced."""
+    """A safe file name: without folders, and with unsafe characters replaced."""
     last = re.split(r"[/\\]", name)[-1]
     cleaned = re.sub(r"[^\w .+()-]", "_", last).strip(" .-")
     return cleaned[-LONGEST:].lstrip(" .-") or "mesh"
 
 
 def _own_surface(body: Body) -> EmbeddedSurface | None:
-    """The surface to write: the user's, or that of a shell, which has no other file."""
+    """The surface to write: the user's, or that of a shell, which is its only file."""
     if body.surface is None and not isinstance(body.mesh, TetMesh):
         return boundary_surface(body.mesh)
     return body.surface

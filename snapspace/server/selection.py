@@ -1,4 +1,4 @@
-"""Selection: the handles that a page has chosen, in the form that a problem takes."""
+"""Selection: the handles that a page has chosen, in the form of a problem."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from ..mesh import Body
 from ..problem import HandleBox, Handles, PosingProblem
 from .messages import Choose, HandleChoice, Vector
 
-#: Initial bounds of a page, about those of problems made by hand, whose handles are about a tenth
-#: of the body.
+#: Initial bounds of a page, similar to those of problems made by hand, whose handles are about a
+#: tenth of the body.
 TRANSLATION_SHARE, ANGLE = 0.1, float(np.deg2rad(45))
 
 
@@ -82,7 +82,7 @@ def selection_of(choice: Choose) -> Selection:
 
 
 def choices_of(problem: PosingProblem) -> tuple[HandleChoice, ...]:
-    """The handles of a problem, in the form that the page takes."""
+    """The handles of a problem, in the form of the page."""
     common = problem.domain.common.bounds[0]
     first, *others = (
         HandleChoice(name=handle.name, vertices=tuple(handle.vertices.tolist()), moving=False)

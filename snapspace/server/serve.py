@@ -36,14 +36,14 @@ def serve(
 ) -> None:
     """Serves the page, to any number of browsers, until Ctrl-C.
 
-    With a model, the page poses or blends it and does all solving. Otherwise the user chooses
+    With a model, the page poses or blends it and does all the solving. Otherwise the user chooses
     handles on a mesh, and the server computes models.
 
     Parameters
     ----------
     model : PosingModel or InterpolationModel, optional
     body : SharedBody, optional
-        The mesh that pages begin with. Without a model and a body, pages ask for a mesh.
+        The initial mesh of pages. Without a model and a body, pages ask for a mesh.
     title : str
         Heading of the page, until a mesh has a name.
     up : "x", "y" or "z", default that of the model or problem, or of the surface's format
@@ -53,11 +53,11 @@ def serve(
     upload_limit : int, default 256 MB
         Largest size in bytes of a mesh that is dropped on the page.
     filling : SurfaceFilling, optional
-        How to fill surfaces that are dropped on the page. Default: with quick tets, unless they
-        are open: those stay as they are, as shells.
+        How to fill surfaces that are dropped on the page. Default: with quick tets; open surfaces
+        become shells instead.
     host : str, default "127.0.0.1"
-        Address to listen on. Any other address than 127.0.0.1 lets other machines connect, with
-        the token. "0.0.0.0" and "::" are all addresses of this machine; requests may then use any
+        Address to listen on. Addresses other than 127.0.0.1 let other machines connect, with the
+        token. "0.0.0.0" and "::" mean all addresses of this machine; requests may then use any
         numeric address, or this machine's own name.
     port : int, default 0
         0 takes any free port.
@@ -106,7 +106,7 @@ def _scratch_folder() -> Iterator[Path]:
 
 @contextmanager
 def _interrupted_by_sigterm() -> Iterator[None]:
-    """SIGTERM ends the block as Ctrl-C does, so that temporary files are removed."""
+    """SIGTERM ends the block like Ctrl-C, so that temporary files are removed."""
     if threading.current_thread() is not threading.main_thread():
         yield  # only the main thread gets signals
         return

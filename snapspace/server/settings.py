@@ -18,8 +18,8 @@ UPLOAD_LIMIT = 256 * 2**20
 class PageTimeouts:
     """How long the workspace of a page that is gone is kept, in seconds.
 
-    alone : usually; a reloaded page is back in a second, a machine that wakes up takes longer
-    waited_for : if other pages wait for its computation
+    alone : usual time; a reloaded page is back in a second, a machine that wakes up takes longer
+    waited_for : time if other pages wait for its computation
     """
 
     alone: float = 60.0
@@ -35,12 +35,12 @@ class ServerSettings:
     token : secret in addresses; only letters, digits, - and _
     folder : Path of the folder where files of uploaded meshes are saved
     scratch : Path of the folder for temporary files, which the server removes at the end
-    body : SharedBody that pages begin with; None if they ask for a mesh
+    body : initial SharedBody of pages; None if they ask for a mesh
     model : model to pose or blend, instead of a body; or None
     upload_limit : largest upload, in bytes
     timeouts : how long workspaces outlive their pages
-    filling : how to fill surfaces that are dropped on a page; None: with quick tets, and those
-        that are open stay as they are, as shells
+    filling : how to fill surfaces that are dropped on a page; None: with quick tets, and open
+    surfaces become shells
     queue : the queue of all computations
     """
 

@@ -1,4 +1,4 @@
-"""SharedBody: the body that all pages begin with, made when the first page asks for it."""
+"""SharedBody: the initial body of all pages, made when the first page needs it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .user_surface import UserSurface
 class SharedBody:
     """Calls `make` once and keeps its body.
 
-    If making it fails, or the page that makes it is closed, the next page that asks makes it again.
+    If making it fails, or the page that makes it is closed, the next page makes it again.
 
     Parameters
     ----------
@@ -35,8 +35,8 @@ class SharedBody:
         Parameters
         ----------
         opening : Opening
-            Told what `make` tells. While another page makes the body it is told the surface, once
-            that has been read, and the stage "waiting" about ten times a second.
+            Receives the reports of `make`. While another page makes the body, it receives the
+            surface, once that has been read, and the stage "waiting" about ten times a second.
 
         Raises
         ------

@@ -7,8 +7,8 @@ from typing import Any
 
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-#: From the start of a connection, or of its next request, until all headers have arrived.
-#: A browser sends them in one piece; a tunnel across the world takes a second.
+#: Time limit from the start of a connection, or of its next request, until all headers have
+#: arrived. A browser sends them in one piece; a tunnel across the world takes a second.
 HEADER_SECONDS = 10.0
 
 

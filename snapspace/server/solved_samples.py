@@ -1,4 +1,4 @@
-"""SolvedSamples: samples that a page's computations have solved, for the next one to start from."""
+"""SolvedSamples: samples of a page's computations, from which the next one starts."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ..snapshots import Snapshots
 
 
 class SolvedSamples:
-    """The samples of the last computation and, if it was interrupted, those before."""
+    """The samples of the last computation and, if it was interrupted, of those before."""
 
     def __init__(self) -> None:
         self._snapshots: Snapshots | None = None
@@ -26,7 +26,7 @@ class SolvedSamples:
         self._snapshots = snapshots
 
     def add(self, snapshots: Snapshots) -> None:
-        """Keeps these too, in place of older ones at the same parameters."""
+        """Adds samples; they replace older ones at the same parameters."""
         old = self._snapshots
         if old is not None and old.problem.fingerprint == snapshots.problem.fingerprint:
             joined = snapshots.joined(old)

@@ -10,12 +10,12 @@ from ..mesh.arrays import FloatArray, IndexArray
 from . import messages
 from .body import Body
 
-#: More faces than this are not drawn: a page would wait for them.
+#: More faces than this are not drawn, since a page would wait for them.
 MOST_INVENTED = 20_000
 
 
 def surface_check(shown: Body | SurfaceFile, request: int) -> messages.Checked:
-    """The findings of `check_surface`, and what mending changes before the surface is filled.
+    """The findings of `check_surface`, and the changes of mending before the surface is filled.
 
     ValueError if a body came as tets.
     """
@@ -49,7 +49,7 @@ def _surface_of(shown: Body | SurfaceFile) -> tuple[FloatArray, IndexArray]:
     surface = shown.surface
     if surface is None:
         raise ValueError("this mesh came as tets, not as a surface; `snapspace check` checks tets")
-    # a source has the very coordinates of the file: embedded ones differ in rounding at seams
+    # a source has the exact coordinates of the file; embedded ones differ in rounding at seams
     if surface.source is not None:
         return _surface_of(surface.source)
     return surface.vertices(shown.mesh.vertices), surface.faces

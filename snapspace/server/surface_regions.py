@@ -1,4 +1,4 @@
-"""SurfaceRegions: handles chosen on a surface, as handles of the tets inside it."""
+"""SurfaceRegions: converts handles of a surface to handles of the tets inside it."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class SurfaceRegions:
 
     @cached_property
     def _closest_of_all(self) -> NDArray[np.intp]:
-        """The surface vertex closest to each tet vertex, (n,), also those inside."""
+        """The surface vertex closest to each tet vertex, (n,), including interior ones."""
         closest = np.empty(len(self._mesh.vertices), np.intp)
         closest[self._mesh.surface_vertices] = self._closest
         inner = np.setdiff1d(np.arange(len(closest)), self._mesh.surface_vertices)
@@ -82,7 +82,7 @@ class SurfaceRegions:
             own = own[(own >= 0) & (own < count)]
             chosen.append(own if own.size else self._surface.following(region))
         for one, region in enumerate(regions):
-            if not chosen[one].size:  # no surface vertex follows it: take those around it
+            if not chosen[one].size:  # no surface vertex follows it: use those around it
                 around = self._closest[np.isin(self._mesh.surface_vertices, region)]
                 others = np.concatenate([*chosen[:one], *chosen[one + 1 :]])
                 chosen[one] = np.setdiff1d(around, others)

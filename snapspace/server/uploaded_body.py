@@ -1,4 +1,4 @@
-"""read_upload: the body in a file that was dropped on a page."""
+"""read_upload: the body of a file that was dropped on a page."""
 
 from __future__ import annotations
 

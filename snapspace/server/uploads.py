@@ -22,10 +22,10 @@ from .workspaces import Workspaces
 def upload_endpoint(
     settings: ServerSettings, workspaces: Workspaces
 ) -> Callable[[Request], Awaitable[Response]]:
-    """Takes POST requests: the body is the file, and the query has workspace=ID and name=FILE.
+    """Answers POST requests: the body is the file, and the query has workspace=ID and name=FILE.
 
-    With request=N it counts among the page's messages: a later `Cancel` also drops a file that
-    arrives after it.
+    With request=N the upload is numbered like the page's messages: a later `Cancel` drops the file
+    even if it arrives afterwards.
 
     The answer is 202 once the file has arrived; the websocket sends the rest. Errors are one line
     of text: 400 for an interrupted upload, 404 for a page that is not connected, 413 beyond the
@@ -40,7 +40,8 @@ def upload_endpoint(
     async def upload(request: Request) -> Response:
         body = request.stream()
         answer = await taken(request, body)
-        # read the rest of a refused upload: a client that is still sending would miss the answer
+        # read the rest of a refused upload, since a client that is still sending would miss the
+        # answer
         with suppress(ClientDisconnect):
             async for _ in body:
                 pass

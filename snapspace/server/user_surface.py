@@ -1,4 +1,4 @@
-"""UserSurface: a surface that a user opened, which becomes a solid or a shell."""
+"""UserSurface: a surface that a user opened, to become a solid or a shell."""
 
 from __future__ import annotations
 
@@ -19,18 +19,19 @@ from ..mesh.embed_surface import WHOLE_DIAGONAL
 from ..mesh.validation import check_points
 from .body import Body
 
-#: Usual thickness of a shell, as a share of the diagonal: thinner ones bend so easily that a linear
-#: subspace stretches what should only bend, and thicker ones bend like solids (docs/shells.md).
+#: Usual thickness of a shell, as a share of the diagonal. Thinner shells bend so easily that a
+#: linear subspace stretches what should only bend, and thicker ones bend like solids
+#: (docs/shells.md).
 USUAL_THICKNESS = 0.02
 
 
 @dataclass(frozen=True, kw_only=True)
 class UserSurface:
-    """A surface file that has been read, and what a body of it has besides a mesh.
+    """A surface file that has been read, with everything that a body needs besides a mesh.
 
     name, folder, up, mirror, material : as for `Body`
     source : SurfaceFile, compact
-    path : Path of the file, or None if it is no file of the user
+    path : Path of the file, or None if it is not a file of the user
     """
 
     name: str
@@ -58,14 +59,14 @@ class UserSurface:
             return self._body(mesh, embed_file(self.source, mesh, farthest=WHOLE_DIAGONAL))
 
     def shell(self, thickness: float) -> Body:
-        """The surface as it is; ValueError as for `ShellMesh`."""
+        """The surface as a shell; ValueError as for `ShellMesh`."""
         with self._located():
             return self._body(*shell_of_file(self.source, thickness=thickness))
 
     def own_shell(self) -> Body | None:
-        """The surface as a shell of the usual thickness if it is open; None if it is not.
+        """The surface as a shell of the usual thickness if it is open; None if it is closed.
 
-        Also None if it is no valid shell: filling mends more.
+        Also None if it is not a valid shell, since filling mends more.
         """
         try:
             body = self.shell(usual_thickness(self.diagonal))

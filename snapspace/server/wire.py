@@ -73,7 +73,7 @@ def _value(value: Any, hint: Any, where: str) -> Any:
     if dataclasses.is_dataclass(hint) and isinstance(hint, type):
         return _object(value, hint, where)
     arguments = typing.get_args(hint)
-    if isinstance(hint, types.UnionType):  # something or null
+    if isinstance(hint, types.UnionType):  # a value or null
         inner = next(argument for argument in arguments if argument is not type(None))
         return None if value is None else _value(value, inner, where)
     if typing.get_origin(hint) is tuple:

@@ -47,7 +47,7 @@ class Workspace:
     def __init__(self, settings: ServerSettings, emit: Callable[..., None]) -> None:
         self.id = secrets.token_urlsafe(9)
         self._settings, self._emit = settings, PageChannel(emit)
-        self._lock = threading.Lock()  # for the calls; of the jobs only that of an upload takes it
+        self._lock = threading.Lock()  # for the calls; of the jobs only that of an upload uses it
         self._jobs = WorkspaceJobs(self._emit, self._fail)
         self._surface: UserSurface | None = None  # while it is filled, and after that failed
         self._session: BodySession | None = None
@@ -76,7 +76,7 @@ class Workspace:
     def resume(self, emit: Callable[..., None]) -> None:
         """Connects a page that is back: sends it the state, and then new messages."""
         with self._lock:
-            self._jobs.count_anew()  # as a page that was loaded again does
+            self._jobs.count_anew()  # like a page that was reloaded
             self._emit.connect(emit, self._present)
 
     def _present(self, begun: messages.Workspace) -> messages.Workspace:
@@ -90,16 +90,16 @@ class Workspace:
         return with_choices(now, self._draft)
 
     def upload(self, path: Path, request: int = 0) -> None:
-        """Opens a mesh or model file in place of the current one, once it has been read.
+        """Opens a mesh or model file instead of the current one, once it has been read.
 
-        Files that come after the page closed, or after a later upload or cancel, are removed.
+        Files that arrive after the page closed, or after a later upload or cancel, are removed.
         """
         with self._lock:
             if self._closed or not self._jobs.read(lambda: self._take_upload(path), request):
                 shutil.rmtree(path.parent, ignore_errors=True)
 
     def _take_upload(self, path: Path) -> None:
-        """Reads a file, in a job: if that fails, the present body, models and work stay."""
+        """Reads a file in a job. If that fails, the current body, models and work stay."""
         Reporter(self._send, 0).send("reading")
         make = read_upload(path, self._settings)
         with self._lock:
@@ -175,7 +175,7 @@ class Workspace:
         return self._session
 
     def _own_session(self) -> BodySession:
-        """The session of the model that the page began with, to improve it."""
+        """The session of the page's initial model, to improve it."""
         if self._models.current is not None:
             self._session = BodySession(self._model_body(self._models.current), self._models)
         return self._current_session()
@@ -184,7 +184,7 @@ class Workspace:
         return model_body(model, name=self._settings.title, folder=self._settings.folder)
 
     def _export(self, order: messages.Export) -> None:
-        """Keeps a model with what was made on its page, until that page fetches it."""
+        """Stores a model with the work of its page, until that page fetches it."""
         order = replace(order, up=order.up or self._up)
         self._exports.keep(order, self._models, self._session, title=self._settings.title)
         address = self._address("page", order.model)
@@ -198,7 +198,7 @@ class Workspace:
         self._open(lambda _: self._model_body(model), self._settings.title)
 
     def _reopen(self, order: messages.Reopen) -> None:
-        """Fills the surface, or takes it as a shell; what the page has kept stays."""
+        """Fills the surface, or makes it a shell; the page's `Keep` choices stay."""
         kept = self._draft
         surface = self._surface or surface_of(self._current_session().body)
         make = reopening(surface, order.thickness, self._settings.filling)
@@ -236,9 +236,9 @@ class Workspace:
         draft: messages.Keep | None = None,
         before: BodySession | None = None,
     ) -> None:
-        """Begins to make a body; the page is sent a workspace once its surface or it is ready.
+        """Begins to make a body; the page gets a workspace once its surface or the body is ready.
 
-        With `draft` it begins with those choices; `before` is the session to return to.
+        `draft` has its initial choices; `before` is the session to return to.
         """
         self._jobs.end_work()
         kept = self._draft
@@ -289,7 +289,7 @@ class Workspace:
 
     @property
     def _up(self) -> str:
-        """The axis of the page, else of the server's settings, else of the file."""
+        """The axis of the page, of the server's settings, or of the file, in this order."""
         body = None if self._session is None else self._session.body
         return axis_up(self._settings, self._draft, body, self._surface)
 

@@ -8,14 +8,14 @@ from .job import Job
 from .page_channel import PageChannel
 from .polish_jobs import PolishJobs
 
-#: How long to wait for stopped work to end: solvers check between the parts of an iteration.
+#: How long to wait for stopped work to end; solvers check between the parts of an iteration.
 STOP_SECONDS = 0.4
 
 
 class WorkspaceJobs:
     """Opening a body or computing models, one at a time.
 
-    Beside that an upload is read, a surface checked, and shapes are polished.
+    Meanwhile an upload may be read, a surface checked, and shapes polished.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class WorkspaceJobs:
             self._work.wait(STOP_SECONDS)
 
     def read(self, work: Callable[[], None], request: int) -> bool:
-        """Begins to read an upload, in place of the last one; False after a later request.
+        """Begins to read an upload instead of the last one; False after a later request.
 
         An upload without a number, 0, is always read.
         """
@@ -59,7 +59,7 @@ class WorkspaceJobs:
         return True
 
     def count_anew(self) -> None:
-        """Takes the next upload, whatever its number is."""
+        """Accepts the next upload with any number."""
         self._uploaded = 0
 
     def stop_reading(self, request: int) -> None:
@@ -69,13 +69,13 @@ class WorkspaceJobs:
             self._reading.stop()
 
     def check(self, work: Callable[[], None], *, request: int) -> None:
-        """Begins a check in place of the last one."""
+        """Begins a check instead of the last one."""
         if self._check is not None:
             self._check.stop()
         self._check = Job(work, failed=lambda error: self._failed(request, error))
 
     def stop(self) -> None:
-        """Stops all jobs and forgets them; the garbage collector would not see their size."""
+        """Stops and drops all jobs, since the garbage collector does not see their size."""
         all_jobs = (self._work, self._check, self._reading, self.polishes.stop())
         jobs = [job for job in all_jobs if job is not None]
         for job in jobs:

@@ -1,4 +1,4 @@
-"""Workspaces: the workspaces of connected pages, and of pages that may come back."""
+"""Workspaces: the workspaces of connected pages, and of pages that may return."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Workspaces:
         return self._known.get(id)
 
     async def enter(self, id: str | None, put: Put, dismiss: Dismiss) -> Workspace:
-        """The workspace of an id for a page, as it was left, or else a new one.
+        """The workspace of an id for a page, as it was left, or a new one.
 
         Parameters
         ----------
@@ -84,7 +84,7 @@ class Workspaces:
             self._known.pop(workspace.id, None)
             await run_in_threadpool(workspace.close)
         except asyncio.CancelledError:
-            if self._leaving.get(workspace.id) is own:  # the server ends: nobody came back
+            if self._leaving.get(workspace.id) is own:  # the server ends, and no page can return
                 workspace.close()
             raise
         finally:
