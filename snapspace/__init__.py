@@ -1,7 +1,7 @@
 """Sample a shape problem, keep the best small space, solve in it live.
 
-Names are imported from their packages when they are first used: `import snapspace` alone takes a
-tenth of the time. Type checkers read `__init__.pyi`; a test keeps it equal to `EXPORTS`.
+Names are imported from their packages on first use, so `import snapspace` alone takes a tenth of
+the time. Type checkers read `__init__.pyi`; a test keeps it equal to `EXPORTS`.
 """
 
 from importlib import import_module as _import_module

@@ -52,7 +52,7 @@ def require_type(who: str, name: str, value: object, kinds: Any, cure: str) -> N
 
 
 def as_numbers(who: str, name: str, values: ArrayLike) -> FloatArray:
-    """An array of float64, not copied if it is one; ValueError for what are no numbers."""
+    """An array of float64, not copied if it is one already; ValueError for anything but numbers."""
     try:
         return np.asarray(values, np.float64)
     except (TypeError, ValueError):
@@ -111,17 +111,17 @@ def shown(value: object) -> str:
 
 
 def is_number(value: object) -> bool:
-    """Whether it is a real number, of Python or of NumPy."""
+    """Whether the value is a real number, of Python or of NumPy."""
     return isinstance(value, Real)
 
 
 def is_finite(value: object) -> bool:
-    """Whether it is a finite real number, of Python or of NumPy."""
+    """Whether the value is a finite real number, of Python or of NumPy."""
     return isinstance(value, Real) and math.isfinite(value)
 
 
 def is_whole(value: object) -> bool:
-    """Whether it is a whole number, of Python or of NumPy."""
+    """Whether the value is a whole number, of Python or of NumPy."""
     return isinstance(value, Integral)
 
 

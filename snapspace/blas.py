@@ -20,9 +20,9 @@ R = TypeVar("R")
 def single_threaded_blas(function: Callable[P, R]) -> Callable[P, R]:
     """Decorator: NumPy's and SciPy's linear algebra stays on one thread inside the function.
 
-    BLAS splits long sums between its threads, so the last bits of a product depend on how many
-    there are. A model should not depend on that, and its products take well under a second.
-    Functions that run at the same time on several threads share the limit.
+    BLAS splits long sums between its threads, so the rounding of a product depends on their number.
+    A model should not depend on that, and its products take well under a second. Functions that run
+    at the same time on several threads share the limit.
     """
 
     @wraps(function)
@@ -41,7 +41,7 @@ class _SharedLimit:
         self._inside = 0
         self._limits: Any = None
         self._controller: ThreadpoolController | None = None
-        self._modules = 0  # how many were imported when the controller looked for libraries
+        self._modules = 0  # number of modules when the controller searched for libraries
 
     def __enter__(self) -> None:
         with self._lock:
@@ -70,8 +70,8 @@ class _SharedLimit:
 def _take_control() -> None:
     """Lets this thread change OpenBLAS's limit.
 
-    From version 3.8 on threadpoolctl silently ignores all threads except the one that changed it
-    first. Ours take turns, under the lock.
+    From version 3.8 on, threadpoolctl silently ignores all threads except the first one that
+    changed the limit. Our threads take turns under the lock.
     """
     controller: Any = getattr(threadpoolctl, "OpenBLASController", None)
     if hasattr(controller, "clear_controlling_thread"):

@@ -1,4 +1,4 @@
-"""Packages that only parts of Snapspace need, and the extras that install them."""
+"""Packages that only some parts of Snapspace need, and the extras that install them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""InputError: an input is not what was needed."""
+"""InputError: an error in the input."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _LONGEST = 800
 def one_line(text: str) -> str:
     """The text with control characters escaped, and without the middle if it is long.
 
-    A name in a file may be anything.
+    A file may contain any name.
     """
     if len(text) > _LONGEST:
         text = f"{text[: _LONGEST - 300]} ... {text[-290:]}"
@@ -23,10 +23,10 @@ def one_line(text: str) -> str:
 
 
 class InputError(ValueError):
-    """A ValueError that knows its place, so that callers can name a better one.
+    """A ValueError with its place, which callers can replace by a better one.
 
     place : the function, file or entry that reports it
-    fault : what came, what was needed, and the cure
+    fault : what was given, what was needed, and the cure
     """
 
     def __init__(self, place: str | Path, fault: str) -> None:
@@ -40,7 +40,7 @@ class InputError(ValueError):
 
 
 def fault_of(error: Exception) -> str:
-    """What is wrong, without the place that the error itself names."""
+    """The fault, without the place that the error itself names."""
     return error.fault if isinstance(error, InputError) else str(error)
 
 

@@ -18,7 +18,7 @@ Result = TypeVar("Result")
 
 
 def run_abandonable(work: Callable[[], Result]) -> Result:
-    """Calls work() on its own thread, so that Ctrl-C is answered at once.
+    """Calls work() on its own thread, so that Ctrl-C takes effect at once.
 
     For compiled work that cannot be stopped, such as a factorisation. After Ctrl-C its thread runs
     to the end in the background, and its result is lost.
@@ -27,7 +27,7 @@ def run_abandonable(work: Callable[[], Result]) -> Result:
 
 
 def begin_abandonable(work: Callable[[], Result]) -> Callable[[], Result]:
-    """Starts what `run_abandonable` does; the returned function waits for the result."""
+    """Starts the call of `run_abandonable`; the returned function waits for the result."""
     outcome: Future[Result] = Future()
 
     def run() -> None:
@@ -58,9 +58,9 @@ def run_interruptible(
 ) -> tuple[Any, bool]:
     """Calls solve(control) on its own thread.
 
-    Returns its result, and whether Ctrl-C ended it early. `on_progress` gets the number of
-    finished samples now and then. An interrupted solve keeps the finished samples and returns early
-    with the others marked cancelled. An exception in `on_progress` also ends the solve, and is
+    Returns its result, and whether Ctrl-C ended it early. `on_progress` gets the number of finished
+    samples from time to time. An interrupted solve keeps the finished samples and returns early,
+    with the others marked as cancelled. An exception in `on_progress` also ends the solve, and is
     raised again.
     """
     control = core.SolveControl()
@@ -74,7 +74,7 @@ def run_interruptible(
                 if not interrupted:
                     check_stop()
                     on_progress(control.finished)
-            except KeyboardInterrupt:  # also one from on_progress
+            except KeyboardInterrupt:  # including one from on_progress
                 interrupted = True
                 control.cancel()
             except BaseException:  # from on_progress; leaving the pool would wait for all samples

@@ -1,4 +1,4 @@
-"""Notices: warnings that inform the user, and do not point to a mistake in the program."""
+"""Notices: warnings that inform the user but do not indicate a mistake in the program."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ def notify(text: str, kind: type[Notice], *, stacklevel: int = 1) -> None:
 
 @contextmanager
 def collected_notices() -> Iterator[list[str]]:
-    """The notices of this thread, in order, as they come; they are still shown as warnings.
+    """The notices of this thread, in order, as they appear; they are still shown as warnings.
 
-    `warnings.catch_warnings` would take those of other threads too.
+    `warnings.catch_warnings` would catch those of other threads as well.
     """
     collected: list[str] = []
     token = _collected.set(collected)

@@ -1,4 +1,4 @@
-"""corner_texts: corners of a box in so many digits that the box has a size."""
+"""corner_texts: corners of a box with enough digits to show its size."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from numpy.typing import ArrayLike
 
 #: Digits of coordinates that are no longer than the box.
 _DIGITS = 4
-#: More do not fit a double.
+#: The largest number of digits of a double.
 _MOST = 16
 
 
 def corner_texts(low: ArrayLike, high: ArrayLike) -> tuple[str, str]:
     """Two corners (3,) of a box, as "(x, y, z)"; far from the origin they have more digits.
 
-    Four digits of a body at 200,000 that is 3 long would show the same number on both sides.
+    With four digits, a body of length 3 at 200,000 would have the same number on both sides.
     """
     corners = np.array([low, high], np.float64)
     diagonal, farthest = np.linalg.norm(corners[1] - corners[0]), np.abs(corners).max()

@@ -1,4 +1,4 @@
-"""How long work is stopped: it checks for Ctrl-C and for requests from other threads."""
+"""Stopping long work, which checks for Ctrl-C and for requests from other threads."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ SAME_SECONDS = 1.0
 
 Handler = Callable[[int, FrameType | None], object]
 
-#: Raises if the work of this thread was asked to stop; see `check_stop`.
+#: Raises if the work of this thread should stop; see `check_stop`.
 _check: ContextVar[Callable[[], None]] = ContextVar("check", default=lambda: None)
 
 
 class Stopped(KeyboardInterrupt):
-    """Work was asked to stop, as by Ctrl-C; see `stoppable`."""
+    """Work was stopped on request, as by Ctrl-C; see `stoppable`."""
 
 
 class Termination:
-    """A handler of SIGTERM that acts like Ctrl-C, and remembers that the signal came.
+    """A handler of SIGTERM that acts like Ctrl-C, and records that the signal was received.
 
-    came : whether the signal has come
+    came : whether the signal was received
     """
 
     def __init__(self) -> None:
@@ -39,7 +39,7 @@ class Termination:
 
 
 def check_stop() -> None:
-    """Raises KeyboardInterrupt if the work of this thread was asked to stop.
+    """Raises KeyboardInterrupt if the work of this thread should stop.
 
     Raises `Stopped` in a block of `stoppable`. In one of `ctrl_c_at_checks` it raises once for a
     Ctrl-C.
@@ -49,7 +49,7 @@ def check_stop() -> None:
 
 @contextmanager
 def stoppable(asked: Callable[[], bool]) -> Iterator[None]:
-    """Long work in this block ends as at Ctrl-C, soon after `asked` returns True.
+    """Long work in this block ends as if by Ctrl-C, soon after `asked` returns True.
 
     For threads other than the main one, where Ctrl-C does not arrive. Code that waits for compiled
     work or another process checks ten times a second, and raises `Stopped`.
@@ -72,11 +72,11 @@ def ctrl_c_at_checks() -> Iterator[None]:
 
     Elsewhere Python may raise it after any call, even in a standard library that has just taken a
     lock or started a thread: code that waits for that lock or thread then waits forever. So all
-    code that shares work with threads does it in such a block, and checks ten times a second. Work
-    that fails to check ends at a second Ctrl-C that comes at least one second later.
+    code that shares work with threads uses such a block, and checks ten times a second. Work that
+    fails to check ends at a second Ctrl-C at least one second later.
 
-    The same holds for SIGTERM where its handler is a `Termination`. Does nothing on other threads,
-    inside another such block, and in programs with their own handlers of these signals.
+    The same holds for SIGTERM if its handler is a `Termination`. The block has no effect on other
+    threads, inside another such block, and in programs with their own handlers of these signals.
     """
     handlers = _raising_handlers()
     if not handlers:
@@ -130,7 +130,7 @@ def _follows_ctrl_c(error: BaseException | None) -> bool:
 
 
 class _CtrlC:
-    """Remembers whether Ctrl-C was pressed, and whether that was raised."""
+    """Records whether Ctrl-C was pressed, and whether it was raised."""
 
     def __init__(self, handlers: dict[int, Handler]) -> None:
         self._handlers = handlers

@@ -1,10 +1,11 @@
-"""checked_threads: checks how many threads a caller wants."""
+"""checked_threads: checks a number of threads."""
 
 from __future__ import annotations
 
 from .arguments import is_whole, shown
 
-#: More are never useful, and far larger numbers do not fit in the core's integers.
+#: Largest number of threads: more are never useful, and far larger numbers do not fit in the core's
+#: integers.
 MOST_THREADS = 1024
 
 

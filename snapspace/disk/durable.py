@@ -1,4 +1,4 @@
-"""Flushing files and folders to the disk itself, not only to the system's cache."""
+"""Flushing files and folders to the disk itself, beyond the system's cache."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def flushed_file(path: Path) -> None:
 def flushed_folder(path: Path) -> None:
     """Waits until the names in a folder are on the disk: new files, renamed and removed ones.
 
-    Does nothing if the system does not support it (Windows) or the folder cannot be read.
+    It does nothing if the system does not support it (Windows) or the folder cannot be read.
     """
     if os.name == "nt":
         return

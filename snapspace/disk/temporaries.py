@@ -14,7 +14,7 @@ _NAME = re.compile(r"\..{0,40}\.(?P<machine>[0-9a-f]{12})-(?P<process>\d{1,9})-[
 
 
 def temporary_name(path: Path) -> str:
-    """A name for a temporary file beside `path`, with the same extension, which writers need.
+    """A name for a temporary file beside `path`, with the extension that writers need.
 
     It contains the process number, so that `sweep` knows whose file it is.
     """
@@ -53,7 +53,7 @@ def swept_once(folder: Path) -> None:
 def machine_mark() -> str:
     """12 hex digits that differ for other systems and containers, and after a restart.
 
-    Random if that is unknown; files with such a mark belong to no later process.
+    The mark is random if these are unknown; no later process owns files with such a mark.
     """
     known = _boot()
     content = secrets.token_bytes() if known is None else known.encode()
@@ -71,7 +71,7 @@ def _boot() -> str | None:
 
 
 def _lives(process: int) -> bool:
-    """Whether a process has this number, perhaps another one than before."""
+    """Whether a process has this number; it may be another one than before."""
     try:
         os.kill(process, 0)
     except ProcessLookupError:

@@ -22,9 +22,9 @@ def bar(
     """Fills the box [0, length] x [0, width] x [0, height] with 6 nx ny nz tetrahedra.
 
     Every grid cell is cut into the six tetrahedra of Kuhn (1960): one for each order in which the
-    steps along x, y, z lead from the cell's lowest to its highest corner. All cells are cut alike
-    and neighbours match for every nx, ny, nz. (The alternating cut into five needs two kinds of
-    cells, and tets of two sizes.)
+    steps along x, y, z lead from the cell's lowest to its highest corner. All cells are cut in the
+    same way, and neighbours match for every nx, ny, nz. (The alternating cut into five needs two
+    kinds of cells, and tets of two sizes.)
 
     Parameters
     ----------

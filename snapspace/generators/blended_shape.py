@@ -64,8 +64,8 @@ def lump(
 def blended(points: FloatArray, parts: tuple[Part, ...]) -> FloatArray:
     """Value of the smooth union of parts, in order, at points (k, 3).
 
-    A part is evaluated only where it can matter. Elsewhere it is farther away than the parts before
-    it by more than the blend, and the smooth union is the value so far.
+    A part is evaluated only where it can have an effect. Elsewhere it is farther away than the
+    earlier parts by more than the blend, and the smooth union is the value so far.
     """
     result = np.full(len(points), np.inf)
     for part in parts:

@@ -13,8 +13,9 @@ from snapspace.stuffing.manifold import euler_characteristic, is_closed_manifold
 _TWELVE_VOLUMES, _SURFACE_LAYER = 12.0, 12.5
 _FEWEST, _MOST = 5_000, 1_500_000
 _TOLERANCE = 0.15
-# The first cell nearly always works. Below 7k tets, where horns and ears are as thin as the cells,
-# the surface sometimes touches itself; then slightly different cells are tried.
+# Factors of the cell, tried in turn. The first one nearly always works. Below 7k tets, where horns
+# and ears are as thin as the cells, the surface sometimes touches itself; then slightly different
+# cells are tried.
 _SCALES = (1.0, 0.985, 1.015, 0.975, 1.025, 0.965, 1.035)
 
 
@@ -26,7 +27,7 @@ def creature(tets: int = 25_000) -> TetMesh:
     Parameters
     ----------
     tets : int, default 25000
-        Wanted number of tets, from 5000 to 1500000; met within 15 %.
+        Target number of tets, from 5000 to 1500000; met within 15 %.
 
     Returns
     -------

@@ -31,7 +31,7 @@ def lizard_poses(
     count : int
         Number of poses, at least 1. The first one is straight.
     tets : int, default 4000
-        Wanted number of tets, from 500 to 500000; met within 10 %.
+        Target number of tets, from 500 to 500000; met within 10 %.
     seed : int, default 0
         Seed of the bends, not negative.
     bend : float, default 1
@@ -41,7 +41,7 @@ def lizard_poses(
     Returns
     -------
     list of TetMesh
-        Vertex i and tet i correspond; `Poses.of` takes them. No tet is inverted. Poses may touch
+        Vertex i and tet i correspond, as `Poses.of` requires. No tet is inverted. Poses may touch
         or cross themselves. Pose k depends only on seed, k and bend, and the shape is the same at
         all resolutions.
 

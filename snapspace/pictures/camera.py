@@ -1,4 +1,4 @@
-"""A perspective camera that stands where a set of points just fills its frame."""
+"""A perspective camera, placed so that a set of points just fills its frame."""
 
 from __future__ import annotations
 

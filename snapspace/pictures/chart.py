@@ -16,7 +16,7 @@ from ..extras import need_extra
 Point: TypeAlias = tuple[float, float]
 
 _INK, _GRID, _PAPER = (58, 56, 54), (226, 224, 220), (255, 255, 255)
-#: Distinct for colour-blind readers too, together with the markers; a curve has one of each.
+#: With the markers, distinct for colour-blind readers as well; a curve has one of each.
 _COLORS = (
     (31, 95, 168),
     (200, 82, 36),
@@ -30,7 +30,7 @@ _COLORS = (
     (0, 0, 0),
 )
 _CORNERS = (0, 4, 3, 5)  # of markers; 0 is a disc
-#: Up to this many names stand in the plot's corner, more beside it.
+#: Up to this many names are in the plot's corner; more are beside it.
 _INSIDE = 4
 #: Charts are drawn this many times larger and averaged, so that lines are smooth.
 _FINER = 3
@@ -63,7 +63,7 @@ def chart(
     Parameters
     ----------
     curves : one to ten Curves
-        The names of more than four stand beside the plot.
+        With more than four, names are beside the plot.
     title, x_name, y_name : str
         Heading, and names of the axes with their units.
     size : (int, int), default (560, 420)

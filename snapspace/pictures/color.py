@@ -1,4 +1,4 @@
-"""Colours: sRGB as people name them, linear light to compute with, OKLab to mix by eye."""
+"""Colours: sRGB for input, linear light for computing, OKLab for perceptual mixing."""
 
 from __future__ import annotations
 

@@ -41,10 +41,10 @@ def colormap(
     palette: str = "terracotta",
     limits: tuple[float, float] | None = None,
 ) -> NDArray[np.float64]:
-    """Colours of a scalar field, equal steps of value being equal steps to the eye.
+    """Colours of a scalar field; equal steps of value are equal steps to the eye.
 
     The anchors of a palette are interpolated linearly in OKLab, so the lightness of "terracotta"
-    and "teal" falls monotonically with the value: the order survives a grey print.
+    and "teal" falls monotonically with the value, so the order survives a grey print.
 
     Parameters
     ----------
@@ -53,8 +53,8 @@ def colormap(
     palette : {"terracotta", "teal", "diverging"}
         "diverging" is lightest in the middle of the limits.
     limits : (low, high), optional
-        Values at the two ends; beyond them colours are constant. By default the least and the
-        greatest value, and for "diverging" minus and plus the greatest magnitude.
+        Values at the two ends; beyond them colours are constant. By default the smallest and the
+        largest value, and for "diverging" minus and plus the largest magnitude.
 
     Returns
     -------

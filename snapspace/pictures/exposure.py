@@ -17,7 +17,7 @@ from .surface import seen_surface
 
 @dataclass(frozen=True)
 class Exposure:
-    """A shape's light, and how much of the background the shape and its shadow leave visible."""
+    """A shape's light, and the part of the background that shape and shadow leave visible."""
 
     light: NDArray[np.float64]  # (h, w, 3) linear, of the covered part of each pixel
     uncovered: NDArray[np.float64]  # (h, w) part of each pixel that the shape leaves free

@@ -39,7 +39,7 @@ def save_film(
 ) -> Path:
     """Draws shapes of one mesh as `render` does, and writes them as a film that repeats.
 
-    The camera stands still and frames all shapes together. The file is written completely or not
+    The camera does not move and frames all shapes together. The file is written completely or not
     at all.
 
     Parameters
@@ -106,7 +106,7 @@ def save_film(
 def _write_gif(path: Path, frames: Iterator[NDArray[np.uint8]], rate: float) -> None:
     from PIL import Image
 
-    # without dithering, parts that stand still do not flicker, and files are small
+    # without dithering, parts that do not move do not flicker, and files are small
     none, cut = Image.Dither.NONE, Image.Quantize.MEDIANCUT
     images = (Image.fromarray(frame).quantize(256, method=cut, dither=none) for frame in frames)
     first = next(images)

@@ -1,4 +1,4 @@
-"""The ground: an endless plane that is seen only by the shadow on it."""
+"""The ground: an infinite plane that only shows the shadow on it."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from .camera import Camera, horizontal_axes
 
 Floats = NDArray[np.float32]
 
-# Paper lets some light through and its surroundings return more, so shadows are less deep than
-# direct light alone would make them.
+# Paper transmits some light and its surroundings reflect more, so shadows are lighter than direct
+# light alone would make them.
 SHADOW_STRENGTH = 0.86
 
 

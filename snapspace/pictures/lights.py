@@ -49,7 +49,7 @@ _SPHERE_DIRECTIONS = 96
 
 
 def studio(azimuth: float, up: str) -> Studio:
-    """The light for a camera at `azimuth` degrees: it turns with the camera around `up`."""
+    """The light for a camera at `azimuth` degrees, which turns with the camera around `up`."""
     lamps = tuple(
         _lamp(direction(azimuth + turn, rise, up), half, count, np.array(irradiance))
         for turn, rise, half, count, irradiance in _LAMPS

@@ -47,9 +47,9 @@ def rasterize(
 
     A triangle is cut into the spans of its rows (half-open on the right and at the bottom), and
     both triangles of a shared edge compute its crossings with the same operations on the same
-    numbers: every pixel inside a closed surface is covered, none twice by one sheet.
-    Fragments compete by the integer (depth, triangle), whose minimum does not depend on the order
-    they come in; ties of depth go to the lower triangle. Both sides of a triangle are drawn.
+    numbers, so every pixel inside a closed surface is covered, none twice by one sheet. Fragments
+    compete by the integer (depth, triangle), whose minimum does not depend on the order they come
+    in; ties of depth go to the lower triangle. Both sides of a triangle are drawn.
 
     Parameters
     ----------

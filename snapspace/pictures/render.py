@@ -30,7 +30,8 @@ def render(
 ) -> NDArray[np.uint8]:
     """Picture of a triangle mesh in a photographer's studio; needs no display and no GPU.
 
-    The camera frames the mesh; key, fill and rim light turn with it. Same input, same bytes.
+    The camera frames the mesh; key, fill and rim light turn with it. The same input gives the same
+    bytes.
 
     Parameters
     ----------

@@ -39,7 +39,8 @@ def render_row(
     """Picture of several shapes of one mesh side by side on one seamless background.
 
     All cells have the same camera, which frames all shapes together, the same light and the same
-    ground level: what looks larger, higher or further left really is. Same input, same bytes.
+    ground level. So what looks larger, higher or farther left really is. The same input gives the
+    same bytes.
 
     Parameters
     ----------

@@ -24,7 +24,7 @@ LIFT_TEXELS = 1.6
 # Passes over the nodes of the ground, where the few directions of a light leave faint streaks.
 SKY_SMOOTHING = 16
 LAMP_SMOOTHING = 4
-# Share of the surface's own light that its hidden parts return: they are darker than average.
+# Share of the surface's own light that its hidden parts return, since they are darker than average.
 BOUNCED = 0.6
 ROUGHNESS = 0.54
 REFLECTANCE = 0.04  # at normal incidence, of a dielectric

@@ -1,4 +1,4 @@
-"""Where to shade: one point per pixel and piece of surface, however many samples cover it."""
+"""Where to shade: one point per pixel and piece of surface, for any number of samples."""
 
 from __future__ import annotations
 

@@ -21,10 +21,10 @@ from snapspace.stuffing.root_finding import FloatArray, ImplicitFunction, evalua
 from snapspace.stuffing.stuffing_stencils import case_numbers, stencil_table
 
 _MOST_CELLS = 50_000_000
-# Largest share of the tets in parts that a point or an edge joins to the others.
+# Largest share of the tets in parts that are joined to the others by a point or an edge only.
 _CRUMBS = 0.02
 
-#: Called with a part of the work, what is done of it, and all of it.
+#: Called with a part of the work, and two numbers: done and in all.
 Progress = Callable[[str, int, int], None]
 
 
@@ -46,7 +46,7 @@ def stuff(
     Parameters
     ----------
     implicit : callable, (k, 3) -> (k,)
-        A continuous function, negative inside. A signed distance is best but not needed.
+        A continuous function, negative inside. A signed distance is best but not required.
     lower, upper : array_like, (3,)
         Corners of a box that contains the shape.
     cell : float
@@ -59,12 +59,13 @@ def stuff(
     Returns
     -------
     TetMesh
-        The largest component, if there are several. Parts that a point or an edge joins are
-        taken apart there, and small ones are left out. Surface vertices lie on the zero set of
-        `implicit`. Dihedral angles are above 8 degrees. (The least angle seen on smooth shapes is
-        10.6 degrees; in a stress test with random signs and cut points in the worst places it is
-        8.4 degrees.) Mirror planes of the shape that go through the origin and are normal to an
-        axis are mirror planes of the vertices. Vertices and tets are ordered along a Morton curve.
+        The largest component, if there are several. Parts that are joined by a point or an edge
+        only are separated there, and small ones are left out. Surface vertices lie on the zero set
+        of `implicit`. Dihedral angles are above 8 degrees. (The smallest angle seen on smooth
+        shapes is 10.6 degrees; in a stress test with random signs and cut points in the worst
+        places it is 8.4 degrees.) Mirror planes of the shape that pass through the origin and are
+        normal to an axis are mirror planes of the vertices. Vertices and tets are ordered along a
+        Morton curve.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Pinches: tets that meet only at a point or along an edge are taken apart there."""
+"""Pinches: separates tets that meet only at a point or along an edge."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from snapspace.mesh.surface import FACES
 def parted_at_pinches(
     vertices: NDArray[np.float64], tets: NDArray[np.int32]
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Gives tets around a vertex that no faces connect their own copies of it.
+    """Gives tets at a vertex that are not connected by faces their own copies of it.
 
     No tet moves. Without such vertices the mesh is the same, up to the order of the vertices.
 
@@ -28,7 +28,7 @@ def parted_at_pinches(
     vertices : ndarray, (k, 3), k >= n
         The vertices of all tets, and copies at the same places.
     tets : ndarray of int32, (m, 4)
-        The same tets: those around a vertex are connected by faces that have this vertex.
+        The same tets; those around a vertex are now connected by faces with this vertex.
     """
     faces = tets[:, FACES].reshape(-1, 3)
     order, shared = equal_faces(faces)

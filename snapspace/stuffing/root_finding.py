@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 ImplicitFunction = Callable[[FloatArray], FloatArray]
-#: Called with what is done and with all there is.
+#: Called with two numbers: done and in all.
 Counter = Callable[[int, int], None]
 
 _CHUNK = 1 << 15  # points per call: keeps the temporaries of the implicit function in cache
@@ -55,7 +55,7 @@ def zero_fractions(
 
     It takes a fixed number of steps of the Illinois variant of regula falsi (Dowell & Jarratt
     1971), which never leaves the segment. The ends are used in the caller's order, so mirrored
-    segments of a mirrored function give the same bits.
+    segments of a mirrored function give bitwise the same fractions.
 
     Parameters
     ----------
