@@ -177,7 +177,7 @@ class ModelSearch:
             if last or self._is_met:
                 break
             target = f"{100 * self.target:.2g} %"
-            self._tell(f"no dimension of {count} samples meets {target}: more samples")
+            self._tell(f"no dimension of {count} samples meets {target}: solving more samples")
 
     @property
     def _is_met(self) -> bool:
@@ -240,7 +240,7 @@ class ModelSearch:
         late = self._budget is not None and self.seconds + self._model_seconds > self._budget
         if self._is_met or late or not fits:
             return
-        self._tell("there are no more samples: parts of samples are combined")
+        self._tell("no more samples are allowed: parts of samples are combined")
         self._begins("subspace")
         trained = self.samples.trained
         most = min(self._plan.most_dimensions, 2 * len(trained))

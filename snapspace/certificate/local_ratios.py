@@ -89,7 +89,7 @@ def _rank(count: int, confidence: float) -> int:
     if rank > count:
         needed = math.ceil(confidence / (1 - confidence) - 1e-9)
         raise ValueError(
-            f"certificate: a confidence of {confidence:g} takes {needed} calibration samples, but "
+            f"certificate: a confidence of {confidence:g} needs {needed} calibration samples, but "
             f"the model has {count}; use calibrate(model, samples={needed})"
         )
     return rank

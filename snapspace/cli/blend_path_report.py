@@ -46,8 +46,8 @@ def notice_jumps(jumps: Sequence[PathJump]) -> None:
         where = f"by {jump.motion:.3g} before frame {jump.frame}, at --weights {weights}"
         if jump.turns:
             notice(
-                f"notice: the body turns as a whole {where}, however small the step; placed on "
-                f"each other, the two shapes differ by {jump.deformation:.3g}"
+                f"notice: the body turns as a whole {where}, however small the step; after "
+                f"registration, the two shapes differ by {jump.deformation:.3g}"
             )
         else:
             notice(

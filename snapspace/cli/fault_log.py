@@ -42,4 +42,4 @@ def fault_line(error: Exception, words: Sequence[str]) -> str:
     except OSError:
         sys.stderr.write(report)
         where = "its traceback is above; please report it"
-    return f"error: this is a fault of snapspace, not of your input ({what}); {where}"
+    return f"error: this is a bug in snapspace, not a mistake in your input ({what}); {where}"

@@ -18,7 +18,7 @@ from .console import notice
 from .progress import spinner
 
 Command = TypeVar("Command", bound=Callable[..., Any])
-_AS_SHELL = "give --shell THICKNESS, which takes it as it is"
+_AS_SHELL = "give --shell THICKNESS, which makes it a shell"
 
 
 def edge_length_option(*, default: str) -> Callable[[Command], Command]:

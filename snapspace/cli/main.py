@@ -48,7 +48,7 @@ def snapspace(ctx: click.Context) -> None:
       snapspace blend cat.snapspace --path 60 -o frames
 
     With --json a command prints one JSON object on standard output; everything else goes to
-    standard error. Exit codes: 0 done, 1 a fault of snapspace, or one that `check` found, 2 a
+    standard error. Exit codes: 0 done, 1 a bug in snapspace, or a fault that `check` found, 2 a
     mistake in the input, 130 interrupted (Ctrl-C), 143 terminated (SIGTERM). After the last two,
     finished work is kept.
     """

@@ -130,7 +130,7 @@ def surface_info(file: Path) -> Info:
         (
             "note",
             "`snapspace interpolate` fills it and blends it with other poses; `build` fills it "
-            "too, or takes it as a thin shell with --shell",
+            "as well, or makes it a thin shell with --shell",
         ),
     ]
     return figures, facts

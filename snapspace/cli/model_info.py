@@ -90,7 +90,7 @@ def _clusters_text(energy: Cubature | BlendedSum) -> str:
 def _decay(energies: NDArray[np.float64] | None, dimension: int) -> str:
     """Relative error of the snapshots' projections onto d modes, for some d, as text."""
     if energies is None:
-        return "unknown: the basis is not from snapshots"
+        return "unknown: the basis was not made from snapshots"
     tails = np.cumsum(energies[::-1])[::-1] / energies.sum()
     shown = sorted({d for d in _DIMENSIONS if d < dimension} | {dimension})
     errors = ((d, float(np.sqrt(tails[d])) if d < len(tails) else 0.0) for d in shown)

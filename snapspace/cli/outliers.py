@@ -27,10 +27,12 @@ def notice_outliers(validation: Validation) -> None:
     if mean <= max(_MEAN, _MEDIANS * float(np.median(errors))) or not far.any():
         return
     snapped = far & (validation.projection_error < _SHARE * errors)
-    cause, cure = "", "ask for a smaller --target-error, or make the box of motions smaller"
+    cause, cure = "", "give a smaller --target-error, or make the box of motions smaller"
     if 2 * snapped.sum() > far.sum():
-        cause = ", probably at another minimum of the energy, as where a thin part snaps"
-        cure = "make the box of motions smaller, or put a handle on the part that snaps"
+        cause = (
+            ", probably at another minimum of the energy, for example because a thin part buckles"
+        )
+        cure = "make the box of motions smaller, or put a handle on the part that buckles"
     notice(
         f"notice: {int(far.sum())} of {len(errors)} unseen motions are more than "
         f"{in_percent(_FAR)} off, at most {in_percent(float(errors.max()))}{cause}; {cure}"

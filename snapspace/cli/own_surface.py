@@ -131,7 +131,7 @@ def _notice_glb(source: SurfaceFile | None, *, whole: bool) -> None:
     if whole or source.suffix == ".gltf":
         notice(
             f"notice: of the materials of {source.name} the .glb file has base colours only, and "
-            f"no skins; frames in a folder, as {source.suffix}, keep all"
+            f"no skins; frames in a folder, as {source.suffix}, keep everything"
         )
 
 

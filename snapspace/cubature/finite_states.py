@@ -42,6 +42,6 @@ def finite_states(states: States, fewest: int, *, threads: int | None = None) ->
             f"reduce: {len(states) - finite.sum()} of {len(states)} snapshots have inverted tets "
             f"once projected onto {dimension} dimensions, where the energy of {material.title} is "
             f"infinite, and a cubature needs {fewest} without; use a larger dimension or more "
-            "samples, or a material that tets may be inverted in"
+            "samples, or a material that allows inverted tets"
         )
     return states.chosen(np.flatnonzero(finite))

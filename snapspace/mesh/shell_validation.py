@@ -84,7 +84,7 @@ def _check_edges(triangles: IndexArray, *, who: str) -> None:
         raise InputError(
             who,
             f"the edge between vertices {low} and {high} has {uses[crowded[0]]} triangles; "
-            f"{crowded.size} such edges: a shell bends at edges of two, so delete the inner "
+            f"{crowded.size} such edges: an edge of a shell has at most two, so delete the inner "
             "triangles, or give each sheet its own vertices, in a mesh editor",
         )
     directed = first << 32 | second

@@ -29,7 +29,7 @@ def failure(request: int, error: Exception) -> Failed:
 
 def _text_of(error: Exception) -> str:
     if isinstance(error, MemoryError):
-        return "the memory of this machine is used up; use fewer samples or a coarser mesh"
+        return "this machine is out of memory; use fewer samples or a coarser mesh"
     if isinstance(error, ValueError):
         return for_reader(str(error))
-    return f"the server has a fault ({type(error).__name__}: {error}); its output has the details"
+    return f"the server has a bug ({type(error).__name__}: {error}); its output has the details"

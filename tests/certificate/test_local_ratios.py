@@ -72,9 +72,9 @@ def test_frames_in_one_place_are_a_plain_sample() -> None:
 def test_confidence_needs_samples() -> None:
     nine, eight = (LocalRatios(np.zeros((k, 1)), np.ones(k)) for k in (9, 8))
     assert nine.at(np.zeros(1), 0.9) == pytest.approx((1.0, 1.0))
-    with pytest.raises(ValueError, match=r"0\.9 takes 9 calibration samples, but the model has 8"):
+    with pytest.raises(ValueError, match=r"0\.9 needs 9 calibration samples, but the model has 8"):
         eight.at(np.zeros(1), 0.9)
-    with pytest.raises(ValueError, match=r"0\.99 takes 99 calibration samples"):
+    with pytest.raises(ValueError, match=r"0\.99 needs 99 calibration samples"):
         eight.at(np.zeros(1), 0.99)
     for confidence in (0.0, 1.0, np.nan):
         with pytest.raises(ValueError, match="must be between 0 and 1"):

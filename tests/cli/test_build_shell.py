@@ -167,7 +167,7 @@ def test_a_surface_as_rigid_as_possible_is_built_and_described(
 def test_a_sheet_that_cannot_be_filled_may_be_a_shell(
     run: Run, surface: Path, tmp_path: Path
 ) -> None:
-    advice = "or, for a sheet such as cloth, give --shell THICKNESS, which takes it as it is"
+    advice = "or, for a sheet such as cloth, give --shell THICKNESS, which makes it a shell"
     words = ("-o", tmp_path / "sheet.snapspace")
     build = run("build", "--problem", problem(tmp_path), surface, *words)
     assert "encloses no volume" in build.error and advice in build.error

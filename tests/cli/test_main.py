@@ -89,8 +89,9 @@ def test_an_internal_fault_is_one_line_and_its_traceback_is_in_a_file(
     (log,) = tmp_path.glob("snapspace-fault-*.log")
     assert (result.code, result.out) == (1, "")
     assert result.err == (
-        "snapspace: error: this is a fault of snapspace, not of your input (ZeroDivisionError: "
-        f"a fault of two lines); its traceback is in {log}; please report it with that file\n"
+        "snapspace: error: this is a bug in snapspace, not a mistake in your input "
+        f"(ZeroDivisionError: a fault of two lines); its traceback is in {log}; "
+        "please report it with that file\n"
     )
     report = log.read_text()
     assert "Traceback (most recent call last)" in report and "in fault" in report

@@ -22,9 +22,9 @@ def told(capsys: pytest.CaptureFixture[str], worst: float, projection: float) ->
 def test_another_minimum_is_told_from_a_poor_subspace(capsys: pytest.CaptureFixture[str]) -> None:
     snapped = told(capsys, worst=0.9, projection=0.001)
     assert "1 of 16 unseen motions are more than 10 % off, at most 90 %, probably at an" in snapped
-    assert snapped.endswith("or put a handle on the part that snaps")
+    assert snapped.endswith("or put a handle on the part that buckles")
     poor = told(capsys, worst=0.9, projection=0.5)
-    assert "minimum" not in poor and "ask for a smaller --target-error" in poor
+    assert "minimum" not in poor and "give a smaller --target-error" in poor
 
 
 def test_errors_of_usual_size_are_not_told(capsys: pytest.CaptureFixture[str]) -> None:

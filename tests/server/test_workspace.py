@@ -155,7 +155,7 @@ def test_a_fault_is_answered_and_its_traceback_logged(
     settings: ServerSettings, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     failed = refusal(settings, monkeypatch, KeyError("a fault of ours"))
-    assert failed.message.startswith("the server has a fault") and "\n" not in failed.message
+    assert failed.message.startswith("the server has a bug") and "\n" not in failed.message
     assert "a fault of ours" in caplog.text and caplog.records[0].exc_info
 
 

@@ -175,7 +175,7 @@ def test_without_calibration_there_is_no_certificate(
         posing_model.session().certificate()
     with pytest.raises(ValueError, match="calibrated for dimension 15, but the session has 10"):
         creature_model.leading(10).session().certificate()
-    with pytest.raises(ValueError, match=r"confidence of 0\.99 takes 99 calibration samples"):
+    with pytest.raises(ValueError, match=r"confidence of 0\.99 needs 99 calibration samples"):
         creature_model.session().certificate(confidence=0.99)
 
 
