@@ -31,19 +31,20 @@ class Plan:
     sampling : method of the samples
     first : number of training samples of the first stage
     pilot : number of them that make a model which predicts the others; then every stage makes a
-    model that predicts the next one. 0: only models that may meet the target are made
+        model that predicts the next one. 0: only models that may meet the target are made
     slow : the pilot's model predicts others only if its samples take more evaluations, on average
     trusts_predictions : whether the held-out samples are predicted as well, and the first model is
-    expected to have the ratio of the predicting model, not `first_ratio`
+        expected to have the ratio of the predicting model, not `first_ratio`
     held_out : number of samples that judge models
     first_ratio : assumed ratio of errors of reduced solutions to those of projections, before it is
-    measured. Too low a ratio wastes models that miss the target; too high a ratio wastes samples
+        measured. Too low a ratio wastes models that miss the target; too high a ratio wastes
+        samples
     most_dimensions : limit of the dimension, so that a frame of a drag takes about 1 ms
     impression, impression_dimension : number of loosely solved samples of the preliminary model,
-    see `growing_models`, and its dimension
+        see `growing_models`, and its dimension
     most_samples : default limit on samples of small meshes
     most_vertices : limit on the vertices of all samples together, if that gives fewer than
-    `most_samples` and more than 160 samples
+        `most_samples` and more than 160 samples
     enough_samples : number of samples that the largest dimension needs
     enough_vertices : limit on the vertices of up to `enough_samples` samples: a minute on two cores
     predicted_vertices : the same where models predict samples

@@ -59,7 +59,7 @@ class Predicting:
         """The model that predicts the samples after these; None if there is none yet.
 
         make : makes the model if there are enough new samples; not stored, since it may refer to
-        this object
+            this object
         """
         count = 0 if solved is None else len(solved)
         if solved is not None and count >= ENOUGH * self._count:

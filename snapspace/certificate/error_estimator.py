@@ -29,7 +29,7 @@ class ErrorEstimator:
     movement_ratios : (k,), true distances over the distances that a polish moves, or None if these
         were not measured; then there are no thorough certificates
     exponent : exponent of the residual. It is 1 in older calibrations, whose ratios are to the
-    residual
+        residual
 
     Raises
     ------

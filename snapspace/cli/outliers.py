@@ -8,7 +8,7 @@ from ..validation import Validation
 from .console import notice
 from .units import in_percent
 
-#: A mean error is examined above this value, and above this many medians.
+#: A mean error is examined if it is above this value, and above this many medians.
 _MEAN, _MEDIANS = 0.02, 3.0
 #: Motions with this error look wrong. If the projection error is a tenth of it, the subspace is not
 #: the cause.

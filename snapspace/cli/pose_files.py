@@ -48,7 +48,7 @@ class PoseOptions:
     edge_length : edge length of the tets that fill it, relative to the diagonal; None for the
         default
     deviation : goal for the rms distance between fits and surfaces, relative to the diagonal; None
-    for the default
+        for the default
     thickness : thickness of surfaces that are used as shells; None fills them
     scale : when to scale poses to the size of the first one
     accept_inverted : whether inverted tets in a pose are accepted

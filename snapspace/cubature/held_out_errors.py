@@ -21,7 +21,7 @@ class CubatureErrors:
     energy_* : |E_c - E| / E
     force_* : |f_c - f| / |f| of the reduced elastic forces
     displacement_* : |C (f_c - f)| / |q| with the compliance C of the state: about how far the
-    cubature's error moves a solution, relative to its displacement
+        cubature's error moves a solution, relative to its displacement
     """
 
     states: int

@@ -36,7 +36,7 @@ class LocalRows:
 
     @property
     def core(self) -> core.TetRows:
-        """What the compiled energies take."""
+        """The rows in the form that compiled energies need."""
         return core.TetRows(self.sizes, self.rows, self.modes)
 
     @property
@@ -82,7 +82,7 @@ def stored(rows: NDArray[np.float32] | LocalRows) -> NDArray[np.float32] | Local
 
 
 def core_rows(rows: NDArray[np.float32] | LocalRows) -> core.TetRows:
-    """What the compiled energies take."""
+    """The rows in the form that compiled energies need."""
     return rows.core if isinstance(rows, LocalRows) else core.TetRows(rows)
 
 

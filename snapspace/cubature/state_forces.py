@@ -24,7 +24,7 @@ class StateForces:
     units : (s,), energies that errors are relative to
     forces : (s, d), reduced gradients of the energies
     stresses : (s, c, 9) float32, first Piola-Kirchhoff stress times volume of some tets; blended
-    stars have nine numbers for each pose
+        stars have nine numbers for each pose
     stress_unit : unit of these numbers, a power of two near the mean stiffness times volume
     tet_energies : (s, c), energies of the same tets
     """

@@ -31,7 +31,7 @@ class Hole:
     center : (3,), mean of the vertices
     vertices : in ascending order
     loop : vertices in the order in which faces run along the edges; None unless they are a simple
-    loop
+        loop
     """
 
     edges: int

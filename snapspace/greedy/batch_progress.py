@@ -20,7 +20,7 @@ class BatchProgress:
     Attributes
     ----------
     held_out_error : error of the last finished batch by the batches before it; the run of a batch
-    does not know the other batches
+        does not know the other batches
     """
 
     def __init__(self, progress: Progress, total: int) -> None:

@@ -37,7 +37,7 @@ class Material(ABC):
     title : name for people
     exact_degree : degree of the density as a polynomial of F, if it is one; else None
     barrier : whether inverted tets have infinite energy, so that solves must start without inverted
-    tets
+        tets
     collapses : whether blends of poses collapse to nine numbers per tet, as the core's `Blend` does
     lam, mu : Lame parameters of small strains; every material has them, as fields or properties
     """

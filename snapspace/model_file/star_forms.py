@@ -15,7 +15,7 @@ from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import BlendedStars, BlendedSum, Cubature
 from .container import Arrays
 
-#: Of a posing model, (d, d); of an interpolation, (poses, d + 1, d + 1).
+#: The form of a posing model, (d, d), or of an interpolation, (poses, d + 1, d + 1).
 REMAINDER, FORMS = "stars_remainder", "stars_forms"
 #: `BlendedStars.dirichlet_forms`, for readers that have no time to compute them: (poses, d, d).
 DIRICHLET = "stars_dirichlet"

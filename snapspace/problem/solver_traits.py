@@ -29,14 +29,14 @@ class SolverTraits:
     far_apart : whether a shape interpolated between solutions may be a worse start than the nearest
         solution
     soft_modes : returns the soft modes that the system's scalar factor treats as stiff, or None if
-    unknown; the first call computes them, and the problem stores them
+        unknown; the first call computes them, and the problem stores them
     system_near : returns the compiled problem for solutions near a displacement (3n,)
     seeded_tolerance : tolerance of snapshots that start from a reduced model's solutions; None if
-    such starts do not pay off
+        such starts do not pay off
     seeded_hessians : whether their seed has the model's Hessians, see `Predictions`; not where the
-    system's seed has soft motions already
+        system's seed has soft motions already
     polishing_hessian : whether the reduced Hessian is in the seed of `Polisher`; not where patches
-    represent soft motions better
+        represent soft motions better
     """
 
     tolerance: float

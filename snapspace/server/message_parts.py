@@ -13,9 +13,9 @@ class HandleChoice:
     """A handle that the page chose, or that a problem file has.
 
     name : unique among the handles
-    vertices : indices among all vertices of the packed mesh, also those inside
-    moving : whether it moves while sampling; at least one handle does not
-    translation, angle : its own bounds of the sampled motions; null: the common ones
+    vertices : indices among all vertices of the packed mesh, including interior ones
+    moving : whether it moves while sampling; at least one handle must not
+    translation, angle : its own bounds of the sampled motions; null: the common bounds
     """
 
     name: str
@@ -31,7 +31,7 @@ class PartChoice:
 
     name : unique among the parts
     vertices : as for a handle; tets with at least three corners among them are in the part
-    factor : multiplies all moduli there, 0.0001 to 10000; where parts overlap, the later one counts
+    factor : multiplies all moduli there, 0.0001 to 10000; where parts overlap, the last one counts
     """
 
     name: str
@@ -56,7 +56,7 @@ class MaterialChoice:
 
 @dataclass(frozen=True, kw_only=True)
 class HandleMotion:
-    """Where a handle is: a rigid motion about its centre at rest.
+    """The motion of a handle: a rigid motion about its centre at rest.
 
     rotation : matrix, row by row
     """
@@ -67,11 +67,13 @@ class HandleMotion:
 
 @dataclass(frozen=True, kw_only=True)
 class KeptPoint:
-    """A point of the surface that the page pulled and keeps.
+    """A point of the surface that the page has pulled and keeps.
 
     name : unique among the handles
-    corners, shares : three vertices of the surface in the packed model, and their shares of it
-    reach : where it was pulled to from rest, per axis, as seen from the first handle
+    corners, shares : three vertices of the surface in the packed model, and their barycentric
+        weights
+    reach : displacement from rest to where it was pulled, per axis, in the frame of the first
+        handle
     """
 
     name: str
@@ -82,7 +84,7 @@ class KeptPoint:
 
 @dataclass(frozen=True, kw_only=True)
 class SurfaceFinding:
-    """Something about a surface that its user should know, see `doctor.Finding`."""
+    """A property of a surface that its user should know, see `doctor.Finding`."""
 
     name: str
     fault: bool

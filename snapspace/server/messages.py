@@ -70,10 +70,11 @@ class Chosen:
 
 @dataclass(frozen=True, kw_only=True)
 class Mirrored:
-    """Server: the mirror image of a handle, and the plane.
+    """Server: the mirror image of a handle, and the mirror plane.
 
-    normal, point : unit vector across the plane, and a point of it
-    deviation : of the surface from its mirror image, relative to the diagonal; null if not known
+    normal, point : unit normal of the plane, and a point on it
+    deviation : deviation of the surface from its mirror image, relative to the diagonal; null if
+        not known
     """
 
     request: int
@@ -90,8 +91,8 @@ class Progress:
     request : that of the `Compute` or `Extend`; 0 while a mesh is read or filled
     stage : waiting (for another computation), reading, filling, filling inside, filling boundary,
         filling exactly, snapshots, subspace, energy
-    done, total : numbers of samples, points or steps; 0 of 0 where nothing is counted, and a number
-        of 0 for passes of fTetWild, which do not know how many follow
+    done, total : numbers of samples, points or steps; 0 of 0 if nothing is counted, and a number of
+        0 for passes of fTetWild, whose total is not known
     seconds : time since the work began
     eta : expected time until the stage ends; null if not known
     error : `error` of the newest model; null if not known yet
@@ -110,16 +111,16 @@ class Progress:
 class Model:
     """Server: a model that can be posed. Better ones follow until one is final.
 
-    After the `Workspace` of a model's body comes that model, final and with request 0: it can be
+    After the `Workspace` of a model's body, that model is sent, final and with request 0: it can be
     posed or blended until another one is computed.
 
     number : increases from model to model; it is part of the address
     address : address of the packed model, valid until there are two newer ones
-    dimension, samples : dimension of this model, and number of samples that it is made of and
-        judged by, also those of a model that it started from
+    dimension, samples : dimension of this model, and number of samples that made or judged it, with
+        those of the model it started from
     error : median relative error at motions not used for training; null if not known yet
     seconds : time since the computation began
-    kept : the points of an `Extend`, which are handles of this model
+    kept : the points of an `Extend` message, which are handles of this model
     """
 
     request: int
@@ -158,7 +159,7 @@ class Failed:
     """Server: a request was refused, or its work failed.
 
     request : 0 if the message could not be read, and for meshes
-    message : the fault and its cure, one line for the reader
+    message : the fault and its cure, in one line for the reader
     """
 
     request: int
@@ -196,7 +197,7 @@ class Checked:
 
     fine : whether nothing needed mending
     findings : faults first
-    mended : what was mended before the surface was filled, a sentence each
+    mended : what was mended before the surface was filled, one sentence each
     invented : positions of the corners of faces that close holes, nine numbers per face
     """
 

@@ -14,7 +14,7 @@ class Choose:
     request : any 32-bit integer, repeated in the answers
     translation, angle : common bounds of the sampled motions, half widths per axis
     parts : stiffer and softer parts; the rest has the material's moduli
-    thickness : of the shell that the surface becomes; null: the body as it was opened
+    thickness : thickness of the shell that the surface becomes; null: the body as it was opened
     """
 
     request: int
@@ -29,7 +29,7 @@ class Choose:
 class Mirror:
     """Page: make the mirror image of a handle. Answered by `Mirrored`, or `Failed`.
 
-    axis : x, y or z, the direction across the plane; null: the plane is found
+    axis : x, y or z, the normal of the plane; null: the plane is searched for
     """
 
     request: int
@@ -62,7 +62,7 @@ class Compute:
 class Extend:
     """Page: compute models with points as further handles. A running computation is replaced.
 
-    The first one is made from the newest model, or from the server's own. Answered as `Compute` is,
+    The first model is made from the newest one, or from the server's own. Answered like `Compute`,
     with its target, number of samples and seed.
     """
 
@@ -76,7 +76,7 @@ class Cancel:
 
     Answered by `Cancelled`, even if nothing is running.
 
-    upload : stop only the reading of an upload, which has not replaced anything yet
+    upload : stop only the reading of an upload that has not replaced anything yet
     """
 
     request: int
@@ -85,7 +85,7 @@ class Cancel:
 
 @dataclass(frozen=True, kw_only=True)
 class Save:
-    """Page: save problem, newest model, and a mesh that is in no file yet. Answered by `Saved`.
+    """Page: save problem, newest model, and the mesh unless a file has it. Answered by `Saved`.
 
     name : name of the files, without folder or extension; null: the mesh's
     up : axis that points up; null: the server's; timeline : content of a timeline file
@@ -99,7 +99,7 @@ class Save:
 
 @dataclass(frozen=True, kw_only=True)
 class Export:
-    """Page: make a page in one file with a model, as `Save` would keep it. Answered by `Exported`.
+    """Page: make a page in one file with a model, as `Save` would store it. Answered by `Exported`.
 
     model : its number; up, timeline : as in `Save`
     """
@@ -112,7 +112,7 @@ class Export:
 
 @dataclass(frozen=True, kw_only=True)
 class Keep:
-    """Page: keep the choices made so far, even if they cannot be computed yet. Not answered.
+    """Page: store the choices so far, even if they cannot be computed yet. Not answered.
 
     The next `Workspace` of the same id returns them, for example after the page is reloaded.
 
@@ -135,12 +135,12 @@ class Keep:
 
 @dataclass(frozen=True, kw_only=True)
 class Reopen:
-    """Page: fill the surface with tets, or take it as a shell at once, also while it is filled.
+    """Page: fill the surface with tets, or make it a shell at once, even while it is being filled.
 
     Answered by `Reopened` and a `Workspace` with the choices of the last `Keep`, or by `Failed`. If
-    filling fails or is cancelled, the body is as before, which another `Workspace` says.
+    filling fails or is cancelled, the body is as before, and another `Workspace` says so.
 
-    thickness : of the shell; null: fill it
+    thickness : thickness of the shell; null: fill the surface
     """
 
     request: int
@@ -168,7 +168,7 @@ class Polish:
     Answered by a binary frame with `request` as a 32-bit integer and the positions of the surface's
     vertices as 32-bit floats, all little endian, in the order of the packed model; then `Polished`.
 
-    model : its number; iterations : the most that are taken
+    model : its number; iterations : the largest number of iterations
     handles : for posing models, the motions of all handles, in the model's order
     weights : for blending models, one per pose
     q : coordinates of the shape, all or the leading ones

@@ -15,23 +15,23 @@ from .surface_regions import SurfaceRegions
 FloatArray = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-#: Beyond these the rounding errors of stiff parts hide the forces of soft ones from the solvers.
+#: Beyond these limits the rounding errors of stiff parts exceed the forces of soft ones.
 LEAST_FACTOR, MOST_FACTOR = 1e-4, 1e4
-#: A tet belongs to a part if at least so many of its corners do.
+#: A tet belongs to a part if at least this many of its corners do.
 CORNERS = 3
 
 
 def part_factors(
     parts: Sequence[PartChoice], mesh: Body, regions: SurfaceRegions | None
 ) -> FloatArray | None:
-    """The stiffness factor of each tet, (m,); where parts overlap, the later one counts.
+    """The stiffness factor of each tet, (m,); where parts overlap, the last one counts.
 
     Parameters
     ----------
     parts : sequence of PartChoice
     mesh : TetMesh or ShellMesh
     regions : SurfaceRegions or None
-        If the body has its own surface, the regions of that; the parts then have its vertices.
+        The regions of the body's own surface, if it has one; the parts then have its vertices.
 
     Returns
     -------
@@ -56,7 +56,7 @@ def part_factors(
 
 
 def with_factors(material: Material, factors: FloatArray | None) -> Material:
-    """The material with the moduli of each tet times its factor; densities are linear in them."""
+    """The material with the moduli of each tet times its factor; densities are linear in moduli."""
     if factors is None:
         return material
     moduli = {name: getattr(material, name) * factors for name in material.names()}

@@ -40,7 +40,7 @@ class ServerSettings:
     upload_limit : largest upload, in bytes
     timeouts : how long workspaces outlive their pages
     filling : how to fill surfaces that are dropped on a page; None: with quick tets, and open
-    surfaces become shells
+        surfaces become shells
     queue : the queue of all computations
     """
 

@@ -16,30 +16,30 @@ class Workspace:
     id : part of the address of uploads, POST mesh?workspace=ID&name=FILE&request=N&token=..., and
         of the websocket of a page that reconnects, live?workspace=ID&token=...
     kind : "empty": the page asks for a mesh; "reading": progress and another workspace follow;
-        "surface": so far the mesh can only be looked at, progress of filling it and a workspace of
+        "surface": the surface can only be viewed yet, and progress of filling it and a workspace of
         its tets, or `Failed`, follow; "mesh": handles can be chosen; "model": the page's own model,
         number 0, can be polished
     name : name of the mesh or model
-    mesh : address of the packed mesh, the same while it is filled and after; null unless the kind
-        is surface or mesh
+    mesh : address of the packed mesh, the same while it is filled and afterwards; null unless the
+        kind is surface or mesh
     up : axis that points up at first, x, y or z
     handles, parts, translation, angle : initial choices
     diagonal : diagonal of the mesh; 0 if there is none
     target_error, most_samples, seed, stiffness, material, poisson : initial values for `Compute`
     materials : materials that can be chosen
-    solid_material, shell_material : kinds of the materials that a solid and a shell begin with
+    solid_material, shell_material : kinds of the initial materials of a solid and of a shell
     folder : folder where `Save` writes, to show to the reader
     upload_limit : largest upload, in bytes
-    own_poisson : Poisson's ratio that the page chose in place of `poisson`; null: none
+    own_poisson : Poisson's ratio that the page chose instead of `poisson`; null: none
     job : request of the last `Compute` or `Extend` for this mesh; 0 if there was none
-    is_running : whether that is still running
-    has_model : whether a model of that follows
+    is_running : whether that request is still running
+    has_model : whether a model of that request follows
     has_surface : whether the mesh came as a surface, so that `Check` examines it
-    thickness : of the shell that the surface is; null: a solid
-    usual_thickness : to begin with where a solid becomes a shell; null: it came as tets
-    is_filled : whether there are tets, and not only a surface
+    thickness : thickness of the shell; null: a solid
+    usual_thickness : initial thickness if a solid becomes a shell; null: it came as tets
+    is_filled : whether there are tets instead of only a surface
     is_open : whether the surface is a shell with holes, which filling would close
-    notices : what was mended or left out when the mesh was made, or is not shown, a sentence each
+    notices : what was mended or left out when the mesh was made, or is not shown, one sentence each
     """
 
     id: str

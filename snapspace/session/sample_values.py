@@ -11,7 +11,7 @@ FloatArray = NDArray[np.float64]
 
 
 class SampleValues:
-    """The reduced energy of training samples for any weights of the poses.
+    """The reduced energies of training samples for any weights of the poses.
 
     The energy is linear in the weights, so each sample is evaluated only once for every pose.
 

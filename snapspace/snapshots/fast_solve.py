@@ -34,7 +34,7 @@ def solve_fast(
     ----------
     problem : Problem
     inputs : (k, input_size), followed by the inverses of predictions; starts : (k, 3n)
-    displacements
+        displacements
     control : SolveControl
         Cancelled samples have the status cancelled.
     options : ResolvedOptions

@@ -59,7 +59,7 @@ class Snapshots:
     displacements : DisplacementRows (k, 3n) from problem.base, in memory or mapped from files
     reports : one SampleReport per sample
     gram : SnapshotGram of the displacements, if it is known, as after a run with `progress`. It
-    saves most of the work of `snapshot_pca`
+        saves most of the work of `snapshot_pca`
 
     Raises ValueError unless there is a row of problem.base's size and a report for each sample.
     """

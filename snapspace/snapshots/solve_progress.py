@@ -14,8 +14,8 @@ class SolveProgress:
     seconds : time since the run began
     solved : number of samples that this run has solved; the others were finished before
     held_out_error : relative error, in the M-norm, of projecting the newest samples onto the best
-    subspace of the samples before them, as the median over the newest block. None before the second
-    block is finished. It estimates the error of the subspace at unseen parameters.
+        subspace of the samples before them, as the median over the newest block. None before the
+        second block is finished. It estimates the error of the subspace at unseen parameters.
     """
 
     done: int

@@ -108,7 +108,7 @@ class BccLattice:
 def lattice_around(
     lower: NDArray[np.float64], upper: NDArray[np.float64], cell: float
 ) -> BccLattice:
-    """The smallest lattice that leaves a full cell free around the box from lower to upper."""
+    """The smallest lattice with a margin of one full cell around the box from lower to upper."""
     first = np.floor(lower / cell).astype(int) - 1
     last = np.ceil(upper / cell).astype(int) + 1
     i, j, k = (int(value) for value in first)

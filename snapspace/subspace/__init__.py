@@ -1,4 +1,4 @@
-"""Affine subspaces of shapes, including the best one for given snapshots (paper, sec. 5)."""
+"""Affine subspaces of shapes, such as the best one for given snapshots (paper, sec. 5)."""
 
 from .affine_subspace import AffineSubspace, check_subspace
 from .directions import affine_subspace

@@ -16,8 +16,8 @@ SMALL = 1e-4
 def handle_windows(problem: PosingProblem) -> FloatArray:
     """How much each vertex follows each handle: smooth weights that add up to one.
 
-    With them, `widen` takes snapshots apart: what one handle does to the body around it can
-    be combined with what another one does elsewhere in another snapshot.
+    With them, `widen` splits snapshots: the deformation near one handle can be combined with the
+    deformation near another one in another snapshot.
 
     Parameters
     ----------

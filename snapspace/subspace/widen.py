@@ -83,7 +83,7 @@ def widen(
     problem = snapshots.problem
     if not isinstance(problem, PosingProblem):
         raise ValueError(
-            f"widen: snapshots are of {problem!r}, but only handles take snapshots apart; use the "
+            f"widen: snapshots are of {problem!r}, but only handles can split snapshots; use the "
             "subspace of snapshot_pca as it is"
         )
     if subspace.tau.size != problem.tau.size:

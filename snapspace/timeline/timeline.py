@@ -22,8 +22,8 @@ class Key:
 
     time : seconds, not negative
     state : for posing, motions from rest by handle, as `PosingSession.move_all` takes them; a
-    handle without an entry stays as in the key before. For blending, weights by pose; a pose
-    without an entry has weight zero
+        handle without an entry stays as in the key before. For blending, weights by pose; a pose
+        without an entry has weight zero
     easing : "smooth", "linear" or "hold", default "smooth"; how the state moves to the next key
     """
 

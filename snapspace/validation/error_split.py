@@ -29,7 +29,7 @@ class ErrorSplit:
 
     subspace : |P x_full - x_full|, the least error that the subspace allows
     stiffness : |x_all - P x_full|; a subspace is too stiff, since it cannot relax as the full mesh
-    does
+        does
     cubature : |x_red - x_all|, the error of summing over few tets; zero for an exact energy
     error_of_all_tets : |x_all - x_full|, the least error that more tets can reach
     error : |x_red - x_full|, as `Validation.error` without the last registration of blends

@@ -171,5 +171,5 @@ def test_blends_have_no_handles() -> None:
     weights = np.array([[0.5, 0.5, 0.0], [0.2, 0.3, 0.5], [0.0, 0.4, 0.6]])
     blends = solve_snapshots(problem, weights)
     subspace = snapshot_pca(blends, dimension=2)
-    with pytest.raises(ValueError, match="only handles take snapshots apart"):
+    with pytest.raises(ValueError, match="only handles can split snapshots"):
         widen(subspace, blends, dimension=2)

@@ -11,30 +11,30 @@ export type * from "./page_messages.ts";
  * id : part of the address of uploads, POST mesh?workspace=ID&name=FILE&request=N&token=..., and
  *     of the websocket of a page that reconnects, live?workspace=ID&token=...
  * kind : "empty": the page asks for a mesh; "reading": progress and another workspace follow;
- *     "surface": so far the mesh can only be looked at, progress of filling it and a workspace of
+ *     "surface": the surface can only be viewed yet, and progress of filling it and a workspace of
  *     its tets, or `Failed`, follow; "mesh": handles can be chosen; "model": the page's own model,
  *     number 0, can be polished
  * name : name of the mesh or model
- * mesh : address of the packed mesh, the same while it is filled and after; null unless the kind
- *     is surface or mesh
+ * mesh : address of the packed mesh, the same while it is filled and afterwards; null unless the
+ *     kind is surface or mesh
  * up : axis that points up at first, x, y or z
  * handles, parts, translation, angle : initial choices
  * diagonal : diagonal of the mesh; 0 if there is none
  * target_error, most_samples, seed, stiffness, material, poisson : initial values for `Compute`
  * materials : materials that can be chosen
- * solid_material, shell_material : kinds of the materials that a solid and a shell begin with
+ * solid_material, shell_material : kinds of the initial materials of a solid and of a shell
  * folder : folder where `Save` writes, to show to the reader
  * upload_limit : largest upload, in bytes
- * own_poisson : Poisson's ratio that the page chose in place of `poisson`; null: none
+ * own_poisson : Poisson's ratio that the page chose instead of `poisson`; null: none
  * job : request of the last `Compute` or `Extend` for this mesh; 0 if there was none
- * is_running : whether that is still running
- * has_model : whether a model of that follows
+ * is_running : whether that request is still running
+ * has_model : whether a model of that request follows
  * has_surface : whether the mesh came as a surface, so that `Check` examines it
- * thickness : of the shell that the surface is; null: a solid
- * usual_thickness : to begin with where a solid becomes a shell; null: it came as tets
- * is_filled : whether there are tets, and not only a surface
+ * thickness : thickness of the shell; null: a solid
+ * usual_thickness : initial thickness if a solid becomes a shell; null: it came as tets
+ * is_filled : whether there are tets instead of only a surface
  * is_open : whether the surface is a shell with holes, which filling would close
- * notices : what was mended or left out when the mesh was made, or is not shown, a sentence each
+ * notices : what was mended or left out when the mesh was made, or is not shown, one sentence each
  */
 export interface Workspace {
   readonly type: "workspace";
@@ -78,10 +78,11 @@ export interface Chosen {
   readonly handles: readonly string[];
 }
 
-/** Server: the mirror image of a handle, and the plane.
+/** Server: the mirror image of a handle, and the mirror plane.
  *
- * normal, point : unit vector across the plane, and a point of it
- * deviation : of the surface from its mirror image, relative to the diagonal; null if not known
+ * normal, point : unit normal of the plane, and a point on it
+ * deviation : deviation of the surface from its mirror image, relative to the diagonal; null if
+ *     not known
  */
 export interface Mirrored {
   readonly type: "mirrored";
@@ -97,8 +98,8 @@ export interface Mirrored {
  * request : that of the `Compute` or `Extend`; 0 while a mesh is read or filled
  * stage : waiting (for another computation), reading, filling, filling inside, filling boundary,
  *     filling exactly, snapshots, subspace, energy
- * done, total : numbers of samples, points or steps; 0 of 0 where nothing is counted, and a number
- *     of 0 for passes of fTetWild, which do not know how many follow
+ * done, total : numbers of samples, points or steps; 0 of 0 if nothing is counted, and a number of
+ *     0 for passes of fTetWild, whose total is not known
  * seconds : time since the work began
  * eta : expected time until the stage ends; null if not known
  * error : `error` of the newest model; null if not known yet
@@ -116,16 +117,16 @@ export interface Progress {
 
 /** Server: a model that can be posed. Better ones follow until one is final.
  *
- * After the `Workspace` of a model's body comes that model, final and with request 0: it can be
+ * After the `Workspace` of a model's body, that model is sent, final and with request 0: it can be
  * posed or blended until another one is computed.
  *
  * number : increases from model to model; it is part of the address
  * address : address of the packed model, valid until there are two newer ones
- * dimension, samples : dimension of this model, and number of samples that it is made of and
- *     judged by, also those of a model that it started from
+ * dimension, samples : dimension of this model, and number of samples that made or judged it, with
+ *     those of the model it started from
  * error : median relative error at motions not used for training; null if not known yet
  * seconds : time since the computation began
- * kept : the points of an `Extend`, which are handles of this model
+ * kept : the points of an `Extend` message, which are handles of this model
  */
 export interface Model {
   readonly type: "model";
@@ -161,7 +162,7 @@ export interface Reopened {
 /** Server: a request was refused, or its work failed.
  *
  * request : 0 if the message could not be read, and for meshes
- * message : the fault and its cure, one line for the reader
+ * message : the fault and its cure, in one line for the reader
  */
 export interface Failed {
   readonly type: "failed";
@@ -210,7 +211,7 @@ export interface Polished {
  *
  * fine : whether nothing needed mending
  * findings : faults first
- * mended : what was mended before the surface was filled, a sentence each
+ * mended : what was mended before the surface was filled, one sentence each
  * invented : positions of the corners of faces that close holes, nine numbers per face
  */
 export interface Checked {

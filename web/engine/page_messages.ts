@@ -6,9 +6,9 @@ export type Matrix = readonly [number, number, number, number, number, number, n
 /** A handle that the page chose, or that a problem file has.
  *
  * name : unique among the handles
- * vertices : indices among all vertices of the packed mesh, also those inside
- * moving : whether it moves while sampling; at least one handle does not
- * translation, angle : its own bounds of the sampled motions; null: the common ones
+ * vertices : indices among all vertices of the packed mesh, including interior ones
+ * moving : whether it moves while sampling; at least one handle must not
+ * translation, angle : its own bounds of the sampled motions; null: the common bounds
  */
 export interface HandleChoice {
   readonly name: string;
@@ -22,7 +22,7 @@ export interface HandleChoice {
  *
  * name : unique among the parts
  * vertices : as for a handle; tets with at least three corners among them are in the part
- * factor : multiplies all moduli there, 0.0001 to 10000; where parts overlap, the later one counts
+ * factor : multiplies all moduli there, 0.0001 to 10000; where parts overlap, the last one counts
  */
 export interface PartChoice {
   readonly name: string;
@@ -43,7 +43,7 @@ export interface MaterialChoice {
   readonly makes_shells: boolean;
 }
 
-/** Where a handle is: a rigid motion about its centre at rest.
+/** The motion of a handle: a rigid motion about its centre at rest.
  *
  * rotation : matrix, row by row
  */
@@ -52,11 +52,13 @@ export interface HandleMotion {
   readonly translation: Vector;
 }
 
-/** A point of the surface that the page pulled and keeps.
+/** A point of the surface that the page has pulled and keeps.
  *
  * name : unique among the handles
- * corners, shares : three vertices of the surface in the packed model, and their shares of it
- * reach : where it was pulled to from rest, per axis, as seen from the first handle
+ * corners, shares : three vertices of the surface in the packed model, and their barycentric
+ *     weights
+ * reach : displacement from rest to where it was pulled, per axis, in the frame of the first
+ *     handle
  */
 export interface KeptPoint {
   readonly name: string;
@@ -65,7 +67,7 @@ export interface KeptPoint {
   readonly reach: Vector;
 }
 
-/** Something about a surface that its user should know, see `doctor.Finding`. */
+/** A property of a surface that its user should know, see `doctor.Finding`. */
 export interface SurfaceFinding {
   readonly name: string;
   readonly fault: boolean;
@@ -79,7 +81,7 @@ export interface SurfaceFinding {
  * request : any 32-bit integer, repeated in the answers
  * translation, angle : common bounds of the sampled motions, half widths per axis
  * parts : stiffer and softer parts; the rest has the material's moduli
- * thickness : of the shell that the surface becomes; null: the body as it was opened
+ * thickness : thickness of the shell that the surface becomes; null: the body as it was opened
  */
 export interface Choose {
   readonly type: "choose";
@@ -115,7 +117,7 @@ export interface Compute {
  *
  * Answered by `Cancelled`, even if nothing is running.
  *
- * upload : stop only the reading of an upload, which has not replaced anything yet
+ * upload : stop only the reading of an upload that has not replaced anything yet
  */
 export interface Cancel {
   readonly type: "cancel";
@@ -123,7 +125,7 @@ export interface Cancel {
   readonly upload?: boolean;
 }
 
-/** Page: save problem, newest model, and a mesh that is in no file yet. Answered by `Saved`.
+/** Page: save problem, newest model, and the mesh unless a file has it. Answered by `Saved`.
  *
  * name : name of the files, without folder or extension; null: the mesh's
  * up : axis that points up; null: the server's; timeline : content of a timeline file
@@ -141,7 +143,7 @@ export interface Save {
  * Answered by a binary frame with `request` as a 32-bit integer and the positions of the surface's
  * vertices as 32-bit floats, all little endian, in the order of the packed model; then `Polished`.
  *
- * model : its number; iterations : the most that are taken
+ * model : its number; iterations : the largest number of iterations
  * handles : for posing models, the motions of all handles, in the model's order
  * weights : for blending models, one per pose
  * q : coordinates of the shape, all or the leading ones
@@ -156,7 +158,7 @@ export interface Polish {
   readonly iterations?: number;
 }
 
-/** Page: keep the choices made so far, even if they cannot be computed yet. Not answered.
+/** Page: store the choices so far, even if they cannot be computed yet. Not answered.
  *
  * The next `Workspace` of the same id returns them, for example after the page is reloaded.
  *
@@ -192,7 +194,7 @@ export interface Check {
 
 /** Page: make the mirror image of a handle. Answered by `Mirrored`, or `Failed`.
  *
- * axis : x, y or z, the direction across the plane; null: the plane is found
+ * axis : x, y or z, the normal of the plane; null: the plane is searched for
  */
 export interface Mirror {
   readonly type: "mirror";
@@ -203,7 +205,7 @@ export interface Mirror {
 
 /** Page: compute models with points as further handles. A running computation is replaced.
  *
- * The first one is made from the newest model, or from the server's own. Answered as `Compute` is,
+ * The first model is made from the newest one, or from the server's own. Answered like `Compute`,
  * with its target, number of samples and seed.
  */
 export interface Extend {
@@ -212,7 +214,7 @@ export interface Extend {
   readonly points: readonly KeptPoint[];
 }
 
-/** Page: make a page in one file with a model, as `Save` would keep it. Answered by `Exported`.
+/** Page: make a page in one file with a model, as `Save` would store it. Answered by `Exported`.
  *
  * model : its number; up, timeline : as in `Save`
  */
@@ -224,12 +226,12 @@ export interface Export {
   readonly timeline?: string | null;
 }
 
-/** Page: fill the surface with tets, or take it as a shell at once, also while it is filled.
+/** Page: fill the surface with tets, or make it a shell at once, even while it is being filled.
  *
  * Answered by `Reopened` and a `Workspace` with the choices of the last `Keep`, or by `Failed`. If
- * filling fails or is cancelled, the body is as before, which another `Workspace` says.
+ * filling fails or is cancelled, the body is as before, and another `Workspace` says so.
  *
- * thickness : of the shell; null: fill it
+ * thickness : thickness of the shell; null: fill the surface
  */
 export interface Reopen {
   readonly type: "reopen";

@@ -22,7 +22,7 @@ class Directions:
     slots : places of the j vectors
     of_corner : (c,), the vector of each corner, -1 for none
     kind : normals stay perpendicular to directions that they were perpendicular to; tangents move
-    with edges
+        with edges
     """
 
     slots: Slots
