@@ -157,9 +157,10 @@ def accurate_model(
         solved shapes that start from its predictions for the new handles. The new model has up to
         2.4 times the error of one made from scratch, after a sixth to two thirds of the time.
         Unless it meets the target, samples are solved starting from its solutions, and later bases
-        include the old shapes. If handles were only removed, the first new model is the old one
-        without them, at once. Unless it meets the target, others are made as without `start`, since
-        the old shapes would use up dimensions.
+        include the old shapes.
+        If handles were only removed, the first new model is the old one without them, at once.
+        Unless it meets the target, others are made as without `start`, since the old shapes would
+        use up dimensions.
     surface : as for `reduce`
     tell : callable(str), optional
         Gets a line for each model that was tried, and the reason when samples are added.

@@ -55,17 +55,17 @@ def read_problem(
         z]}, the plane that mirrors poses, "material", "stiffness", "domain": {"translation",
         "angle_degrees"}, "handles": [{"name", "boxes", "spheres", "vertices", "painted", "domain"},
         ...]}. Without "mesh" the surface is filled with tets in seconds, see `stuff_surface`. With
-        "body" the surface is a shell, see `shell_of_file`. A handle is the union of its boxes [[min
-        corner], [max corner]] (null: unbounded), spheres [[x, y, z], radius] and vertices.
-        "painted" lists the surface vertices that the user chose for it; only the page reads them.
-        The first handle is the fixed one; any other may have its own domain, whose entries replace
-        those of the common one. A handle whose bounds are all zero is held at rest as well. The
-        material is {"model": one of `MATERIALS`, its moduli by name or "young" and "poisson",
-        "regions": [...]}, where values are numbers or lists with one per tet, or per triangle of a
-        shell. A region has "boxes", "spheres" and "vertices", or "tets", and new values or a
-        "factor"; later regions override earlier ones. Without "material" the default material is
-        used. Without "stiffness" the stiffness of the handles follows from the body, see
-        `usual_stiffness`.
+        "body" the surface is a shell, see `shell_of_file`.
+        A handle is the union of its boxes [[min corner], [max corner]] (null: unbounded), spheres
+        [[x, y, z], radius] and vertices. "painted" lists the surface vertices that the user chose
+        for it; only the page reads them. The first handle is the fixed one; any other may have its
+        own domain, whose entries replace those of the common one. A handle whose bounds are all
+        zero is held at rest as well. The material is {"model": one of `MATERIALS`, its moduli by
+        name or "young" and "poisson", "regions": [...]}, where values are numbers or lists with one
+        per tet, or per triangle of a shell. A region has "boxes", "spheres" and "vertices", or
+        "tets", and new values or a "factor"; later regions override earlier ones. Without
+        "material" the default material is used. Without "stiffness" the stiffness of the handles
+        follows from the body, see `usual_stiffness`.
     mesh : TetMesh or ShellMesh, optional
         Used instead of the file's mesh, or its shell.
     repair : bool, default False

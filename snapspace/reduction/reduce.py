@@ -89,12 +89,12 @@ def reduce(
     energy : "auto", "exact", "cubature" or "full", default "auto"
         exact: for St.Venant-Kirchhoff the reduced energy is a polynomial of degree four; its
         d^4 / 24 coefficients are computed from all tets. cubature: the energies of a few tets with
-        positive weights, for all materials, trained on the snapshots; handles stay exact. full: the
-        energy of all tets, at the cost of the mesh, for subspaces of hundreds of dimensions; such
-        models are for experiments, and are not saved or shown in pages. auto: exact where the
-        material allows it and d is at most 48, else a cubature. At d = 48 an evaluation of the
-        quartic costs d^4 / 8 multiply-adds, twice the 18 r d of a cubature with the default r;
-        exactness is worth that.
+        positive weights, for all materials, trained on the snapshots; handles stay exact.
+        full: the energy of all tets, at the cost of the mesh, for subspaces of hundreds of
+        dimensions; such models are for experiments, and are not saved or shown in pages.
+        auto: exact if the material allows it and d is at most 48, otherwise a cubature. At d = 48
+        an evaluation of the quartic costs d^4 / 8 multiply-adds, twice the 18 r d of a cubature
+        with the default r; exactness is worth that.
     snapshots : Snapshots, optional
         Snapshots of the problem. The model records their parameters and coordinates. A cubature
         needs at least ten that are not at rest, or two for blending. Its accuracy depends on their
@@ -103,10 +103,10 @@ def reduce(
         Whether to use snapshots that did not converge; `snapshot_pca` has the same option.
     tets : int, optional
         The largest number r of tets that a cubature may choose, or all tets if there are fewer.
-        Default for posing: 8 d, but at most the larger of 1000 and 6.5 d. Default for blending: 15
-        d, but at most 1000. The elements of a shell are triangles and hinges, by default 12 d, but
-        at most 1500; or stars, by default 8 d. The sum over all stars is exact and needs no
-        training: it is the default for blends if 8 d is at least half of the stars.
+        Default: for posing 8 d, but at most the larger of 1000 and 6.5 d; for blending 15 d, but
+        at most 1000. The elements of a shell are triangles and hinges, by default 12 d, but at most
+        1500; or stars, by default 8 d. The sum over all stars is exact and needs no training: it is
+        the default for blends if 8 d is at least half of the stars.
     seed : int, default 0
         Seeds the random combinations of forces that a cubature is trained on.
     surface : EmbeddedSurface, optional
