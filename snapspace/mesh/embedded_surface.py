@@ -103,7 +103,8 @@ class EmbeddedSurface:
 
     def following(self, vertices: ArrayLike) -> NDArray[np.intp]:
         """The surface vertices that follow one of these tet vertices most, ascending."""
-        return np.flatnonzero(np.isin(self.nearest, vertices))
+        wanted = as_numbers("EmbeddedSurface", "vertices", vertices)
+        return np.flatnonzero(np.isin(self.nearest, wanted))
 
     def is_boundary(self, mesh: Body) -> bool:
         """Whether this is `boundary_surface(mesh)`."""
