@@ -9,12 +9,20 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import cholesky, solve_triangular
 from scipy.sparse import csr_array
 
-from ..arguments import as_numbers, is_number, is_whole, require_type, shown, wrong_type
+from ..arguments import (
+    as_numbers,
+    is_number,
+    is_whole,
+    require_dimension,
+    require_type,
+    shown,
+    wrong_type,
+)
 from ..blas import single_threaded_blas
 from ..displacements import DisplacementRows, SnapshotGram, orthonormalise
 from ..mesh import check_mass, mass_norm, shape_rows
 from ..problem import PosingProblem, solutions_beyond_tau
-from .affine_subspace import AffineSubspace, check_dimension
+from .affine_subspace import AffineSubspace
 from .handle_products import HANDLE_WEIGHT, check_handle_weight, handle_products
 from .principal import descending, scaled
 
@@ -224,7 +232,7 @@ def _pca(
             f"pca: dimension {count} exceeds the {rank} independent directions of "
             f"{len(eigenvalues)} usable snapshots; use more samples or a smaller dimension"
         )
-    check_dimension(count, rank)
+    require_dimension("pca", count, rank, cure="give at least one")
     if heavy is None:
         energies, weights = eigenvalues, scaled(eigenvalues, vectors, count)
     else:
