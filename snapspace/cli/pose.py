@@ -165,8 +165,12 @@ def _check_finite(reports: Sequence[FrameReport]) -> None:
 
 
 def _notice_beyond(problem: PosingProblem, parameters: NDArray[np.float64]) -> None:
+    first = problem.handles.names[0]
     for name in beyond_domain(problem, parameters):
-        notice(f"notice: '{name}' moves farther than the samples did; the shape may be poor")
+        notice(
+            f"notice: '{name}' moves farther, relative to '{first}', than the samples did; the "
+            "shape may be poor"
+        )
 
 
 def _check_outputs(output: Path | None, png: Path | None) -> None:
