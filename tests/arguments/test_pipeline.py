@@ -98,7 +98,7 @@ WRONG: dict[str, tuple[Call, str]] = {
     ),
     "half a dimension": (
         lambda m, s: ss.snapshot_pca(s, dimension=3.5),  # type: ignore[arg-type]
-        "pca: dimension is of type float; give a whole number",
+        "pca: dimension is 3.5, but must be a whole number",
     ),
     "the subspace before the problem": (
         lambda m, s: ss.reduce(m.subspace, s.problem, snapshots=s),
