@@ -49,8 +49,8 @@ def animate(
 ) -> None:
     """Solve a timeline, as the page saves it, and write its frames.
 
-    Without a file it is the timeline that was saved with the model. Every frame is solved; shapes
-    are not interpolated. In a folder, --format vtu also writes
+    Without a file, the timeline is the one that was saved with the model. Every frame is solved;
+    shapes are not interpolated. In a folder, --format vtu also writes
     frames.vtu.series, which ParaView opens with the times.
 
     \b

@@ -29,8 +29,8 @@ FINE, FAULTS = 0, 1
     type=FILE,
     metavar="OUT",
     help="Mend what is safe and write it: merge equal points, drop useless faces, orient faces "
-    "alike, close flat and small holes. A surface as .obj, .ply, .off, .stl (triangles only), or "
-    "tets as .msh, .vtu, .vtk, .mesh.",
+    "consistently, close flat and small holes. A surface as .obj, .ply, .off, .stl (triangles "
+    "only), or tets as .msh, .vtu, .vtk, .mesh.",
 )
 @json_option
 @click.pass_context
@@ -38,7 +38,7 @@ def check(ctx: click.Context, /, file: Path, output: Path | None, as_json: bool)
     """Say what is wrong with a surface, what it means, and what to do.
 
     The exit code is 0 if nothing needs mending, and 1 otherwise; with --fix it is that of the
-    mended surface. A tet mesh is checked as `info` does it.
+    mended surface. A tet mesh is checked as in `info`.
 
     \b
     Examples:

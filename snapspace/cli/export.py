@@ -33,21 +33,21 @@ from .units import in_bytes
     "--blender",
     type=FILE,
     metavar="FILE",
-    help="The .py file to write: a script that makes the modes shape keys of your mesh in Blender.",
+    help="The .py file to write: a script that makes shape keys of the modes in Blender.",
 )
 @click.option(
     "--packed",
     type=FILE,
     metavar="FILE",
-    help="The .snapspace file to write: what the web component <snapspace-viewer> needs of the "
-    "model.",
+    help="The .snapspace file to write: the part of the model that the web component "
+    "<snapspace-viewer> needs.",
 )
 @click.option(
     "--targets",
     type=click.IntRange(1, 1000),
     metavar="N",
     help="Fit at most N morph targets or shape keys to the training samples, for engines that "
-    "draw few [default: all modes, which are exact].",
+    "support few [default: all modes, which are exact].",
 )
 @click.option("--title", help="Heading of the page, name of the mesh [default: the model's name].")
 @leading_option
@@ -69,8 +69,8 @@ def export(
 
     The page needs no network and no server: mail it, or publish it with a paper. --dimension makes
     it smaller. --packed writes the model alone, for the web component <snapspace-viewer> in your
-    own page. The shapes of a glTF file are sums of its morph targets, and --blender makes the same
-    ones shape keys; `snapspace pose --path N -o FILE.glb` writes an animation.
+    own page. The shapes of a glTF file are sums of its morph targets, and --blender makes shape
+    keys of the same targets; `snapspace pose --path N -o FILE.glb` writes an animation.
 
     \b
     Examples:

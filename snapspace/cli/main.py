@@ -48,9 +48,9 @@ def snapspace(ctx: click.Context) -> None:
       snapspace blend cat.snapspace --path 60 -o frames
 
     With --json a command prints one JSON object on standard output; everything else goes to
-    standard error. Exit codes: 0 done, 1 a fault of snapspace, or one that `check` found, 2 a
-    mistake in the input, 130 interrupted (Ctrl-C), 143 terminated (SIGTERM). Both keep what is
-    finished.
+    standard error. Exit codes: 0 done, 1 a bug in snapspace, or a fault that `check` found, 2 a
+    mistake in the input, 130 interrupted (Ctrl-C), 143 terminated (SIGTERM). After the last two,
+    finished work is kept.
     """
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())

@@ -49,7 +49,7 @@ from .write_frames import handle_colors, write_frames
     type=FILE,
     metavar="FILE",
     help="Surface as .obj, .ply, .off, .stl, .glb, or all tets as .msh, .vtu, .vtk, .mesh. In the "
-    "format of the surface that the model was made from (also .gltf), it is that file with other "
+    "format of the surface that the model was made from (also .gltf), it is that file with new "
     "positions. With --path a folder, a film as .gif or .mp4, or an animated mesh as .glb.",
 )
 @click.option(

@@ -70,9 +70,9 @@ def view(
 
     FILE is a model; or a problem, tets or a surface, to choose handles on and to compute models.
     Without FILE, drop a mesh on the page. A closed surface is first filled with tets, in seconds;
-    if it is too thin for quick tets, fTetWild fills it, which takes up to some minutes. An open
-    one is a shell: it stays as it is. The page offers the other of both; --shell makes any surface
-    a shell, --edge-length and --exact fill any.
+    if it is too thin for quick tets, fTetWild fills it, which takes up to a few minutes. An open
+    surface is a shell: it stays as it is. In the page you can switch between the two; --shell makes
+    any surface a shell, --edge-length and --exact fill any surface.
 
     Opens the page, or prints its address if there is no browser; Ctrl-C ends it. Shapes are solved
     in the page, so it is as fast through a tunnel: `ssh -L 8000:localhost:8000 ...` here and
