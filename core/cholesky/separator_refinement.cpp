@@ -8,9 +8,9 @@ namespace snapspace {
 
 namespace {
 
-/// The side to which a pass moves vertices. A separator that moves to one side only gets over hills
-/// that it cannot climb while vertices move both ways. That saves a tenth of the factor's entries
-/// in solid bodies.
+/// The side to which a pass moves vertices. A separator that moves to one side only can leave local
+/// minima that hold it while vertices move both ways. This saves a tenth of the factor's entries in
+/// solid bodies.
 enum class MoveSide : std::int8_t { left, right, either };
 
 class Refinement {

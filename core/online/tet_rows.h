@@ -11,15 +11,16 @@
 
 namespace snapspace::online {
 
-/// The energies of tets by their displacement gradients, a block at a time: one tet in each lane.
+/// The energies of tets as functions of their displacement gradients, a block at a time: one tet in
+/// each lane.
 class TetEnergies {
  public:
   using Tets = Lanes<kWideLanes>;
 
-  /// Returns the energies of a block's tets, and sets their stresses P by their displacement
-  /// gradients G.
+  /// Returns the energies of a block's tets at their displacement gradients G, and sets their
+  /// stresses P.
   virtual Tets block_energy(int block, const Tets G[3][3], Tets P[3][3]) const = 0;
-  /// Sets the Hessians C of a block's tets by their displacement gradients.
+  /// Sets the Hessians C of a block's tets with respect to their displacement gradients.
   virtual void block_curvatures(int block, const Tets G[3][3], Tets C[9][9]) const = 0;
 
  protected:
@@ -135,11 +136,12 @@ class TetRows {
   void add_stresses(const Cluster& cluster, Half& work, int block, const Tets P[3][3]) const;
   /// Adds the forces of the local coordinates to those of q.
   void add_forces(const Cluster& cluster, Half& work) const;
-  /// Adds a block's part G_e^T curvature G_e to the lower triangle of `hessian`, by the local
-  /// coordinates (rank x rank).
+  /// Adds a block's part G_e^T curvature G_e to the lower triangle of `hessian`, with respect to
+  /// the local coordinates (rank x rank).
   void add_curvatures(const Cluster& cluster, int block, const Tets curvature[9][9],
                       double* hessian) const;
-  /// Adds the cluster's Hessian by the local coordinates, if they are not q itself, to that by q.
+  /// Adds the cluster's Hessian with respect to the local coordinates, if they are not q itself, to
+  /// that with respect to q.
   void add_local_hessian(const Cluster& cluster, Half& work, double* hessian) const;
 
   [[nodiscard]] const Tets* words(const Cluster& cluster, int block) const {

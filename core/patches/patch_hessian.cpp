@@ -108,7 +108,7 @@ void PatchHessian::find_hats(int count, const std::int32_t* corners) {
 
 /// With S = F L^T = U diag(s) V^T, the part of a star's energy that depends on its rotation is -2
 /// weight (s_1 + s_2 + s_3), whose Hessian is -2 weight sum_{i < j} (A_ij - A_ji)^2 / (s_i + s_j)
-/// with A = U^T dF L^T V. So a star feels three numbers of a motion in each part.
+/// with A = U^T dF L^T V. So only three numbers of a motion matter to a star in each part.
 void PatchHessian::add_stars(const std::vector<Part>& parts, int star) {
   const VertexStars& stars = *parts[0].stars;
   const int first = stars.first_corner[star];

@@ -7,7 +7,7 @@ namespace snapspace {
 struct TrainingStates {
   int count, directions;
   int numbers;            ///< of an element: nine, or of blended stars nine for each pose
-  const float* stresses;  ///< count x candidates x numbers, derivatives of energies by the numbers
+  const float* stresses;  ///< count x candidates x numbers, derivatives of the energies
   const float* along;     ///< count x dimension x directions
 };
 

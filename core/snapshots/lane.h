@@ -104,7 +104,7 @@ struct Lane {
     return result;
   }
 
-  /// Whether the sample has moved so far from where its seed was made that another one pays.
+  /// Whether the sample has moved so far from where its seed was made that a new seed pays.
   [[nodiscard]] bool needs_seed() const {
     return seed && iterations >= next_seed && path > kMoved * displacement;
   }

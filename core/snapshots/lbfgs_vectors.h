@@ -109,7 +109,7 @@ class LbfgsVectors {
     [[no_unique_address]] std::array<Single, kSteps> steps{};
   };
 
-  /// In the precision of shapes.
+  /// A pack in the precision of shapes.
   template <class T>
   static Real narrowed(Pack<T, kWidth> a) {
     return cast<typename Real::Scalar>(a);
