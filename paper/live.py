@@ -1,4 +1,4 @@
-"""drag: what a frame of a live session takes."""
+"""drag: the cost of a frame of a live session."""
 
 from __future__ import annotations
 

@@ -108,7 +108,7 @@ def build(platform: str) -> Path:
 
 
 def main() -> None:
-    """Builds for the platform that is asked for."""
+    """Builds for the requested platform."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--platform", choices=PLATFORMS, default=this_platform())
     archive = build(parser.parse_args().platform)
