@@ -46,7 +46,7 @@ export function estimatorOf(
   };
 }
 
-/** The vertices where residuals are read, and what their squares count. */
+/** The vertices where residuals are read, and the weights of their squares. */
 export interface ProbeSample {
   readonly vertices: Int32Array;
   readonly weights: Float64Array;

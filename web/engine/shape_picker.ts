@@ -6,7 +6,7 @@ import { surfaceGroups, type SurfaceGroups } from "./surface_groups.ts";
 
 /** Where a ray hits a surface. */
 export interface Hit {
-  /** In lengths of the direction. */
+  /** The distance along the ray, in lengths of the direction. */
   readonly along: number;
   readonly point: Vector;
   /** The corners of the triangle, the closest to the point first. */

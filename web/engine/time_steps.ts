@@ -4,7 +4,7 @@ import { isSame, seenFrom, type RigidFrames } from "./rigid_frames.ts";
 
 /** How a body swings; as Dynamics of the Python package. */
 export interface Dynamics {
-  /** Of the softest vibration, in Hz. */
+  /** Frequency of the softest vibration, in Hz. */
   readonly frequency: number;
   /** Share of the critical damping of that vibration. */
   readonly damping: number;

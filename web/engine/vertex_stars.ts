@@ -6,10 +6,10 @@ export const STAR_MODULI = 12;
 /** Mean squared sines between the planes of a star and one normal, below which it is flat. */
 const FLAT = 1e-20;
 
-/** A surface that is as rigid as possible. */
+/** An as-rigid-as-possible surface. */
 export interface RigidSurface {
   readonly triangles: Int32Array;
-  /** Of each triangle, modulus times thickness. */
+  /** Modulus times thickness of each triangle. */
   readonly stiffness: Float64Array;
 }
 
@@ -111,7 +111,7 @@ interface Star {
   readonly weight: number;
   /** L L^T is the mean of the projections onto the planes of the triangles. */
   readonly L: number[][];
-  /** By corner: the nine numbers are the sum of displacement (x) gradient. */
+  /** Gradients by corner: the nine numbers are the sum of displacement (x) gradient. */
   readonly gradients: Map<number, number[]>;
 }
 

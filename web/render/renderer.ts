@@ -28,7 +28,7 @@ export class Renderer {
     return this.graphics.gl;
   }
 
-  /** Sets the size of the picture in pixels of the page, each of which has `pixelRatio` pixels along a side. */
+  /** Sets the size of the picture in pixels of the page. Each has `pixelRatio` pixels along a side. */
   setSize(width: number, height: number, pixelRatio: number): void {
     const [across, down] = [width, height].map((side) => Math.floor(side * pixelRatio));
     // setting the size empties the canvas, also if it is the same

@@ -54,7 +54,7 @@ export class Improving {
     this.onChange();
   }
 
-  /** The view of the points is left; what was ordered goes on. */
+  /** The view of the points is left; what was ordered is still computed. */
   forget(): void {
     [this.#kept, this.#ordered] = [[], []];
     this.onChange();

@@ -14,7 +14,7 @@ export interface Swinging {
   step(dt: number, dynamics: Dynamics): FrameReport;
   /** The static solve for what is set, where a swing without gravity ends. */
   settle(): FrameReport;
-  /** In coordinate scales per second. */
+  /** The speed in coordinate scales per second. */
   speed(): number;
 }
 
@@ -42,7 +42,7 @@ export class Jiggle {
     if (!on && this.#moves) this.#isFirst = true;
   }
 
-  /** Whether gravity bends the body, of which static solutions know nothing. */
+  /** Whether gravity bends the body, which static solutions ignore. */
   get isHeavy(): boolean {
     return this.#isOn && this.dynamics.gravity.some((g) => g !== 0);
   }

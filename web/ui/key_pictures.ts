@@ -47,7 +47,7 @@ export class KeyPictures<State> {
     }
   }
 
-  /** A state goes on as another one. */
+  /** Another state takes over the picture of a state. */
   become(state: State, other: State): void {
     const picture = this.of(state);
     if (picture) this.#pictures.set(other, picture);

@@ -68,7 +68,7 @@ export class Pulling {
     return this.#kept.map((point) => ({ ...point, reach: reachOf(model, point, carriedBy) }));
   }
 
-  /** Of kept points, as handles that do not turn. */
+  /** Motions of kept points, as handles that do not turn. */
   get motions(): Motions {
     const { model } = this.#posing.session;
     return new Map(

@@ -116,7 +116,7 @@ export class ServedModels {
     this.update();
   }
 
-  /** Makes room for models of other handles: the present model is back if there is none of them. */
+  /** Prepares for models of other handles: the present model comes back if none of them arrives. */
   #begin(): void {
     this.#before = this.#model ?? this.#before;
     this.#model = null;

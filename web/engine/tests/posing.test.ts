@@ -96,7 +96,7 @@ for (const file of ["posing.packed", "cubature.packed", "clustered.packed"])
     }
   });
 
-test("a motion beyond all numbers is taken back", async () => {
+test("a motion whose energy overflows is undone", async () => {
   const session = await PosingSession.create(core, readModel(bytes("posing.packed"), "") as PosingModel);
   session.move(1, [0, 0, 0.2], [0.1, 0, 0]);
   const [q, motion] = [session.q, session.motion(1)];
