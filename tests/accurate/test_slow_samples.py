@@ -61,7 +61,7 @@ def test_held_out_samples_that_come_first_are_no_pilot(motions: PosingProblem) -
 def test_predicted_samples_are_solved_as_tightly_as_others(
     slender: PosingProblem, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Looser ones leave larger errors. Those of large bodies are looser, predicted or not."""
+    """Loose samples leave larger errors. Those of large bodies are loose, predicted or not."""
     tolerances = []
     for large in (False, True):
         monkeypatch.setattr(solving, "is_large", lambda problem, large=large: large)

@@ -74,7 +74,7 @@ def test_nothing_is_baked_in_edit_mode(bpy: Any, computed: Any) -> None:
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def test_an_edited_mesh_is_told_and_not_taken_back(bpy: Any, computed: Any) -> None:
+def test_an_edited_mesh_is_reported_and_keeps_its_edits(bpy: Any, computed: Any) -> None:
     basis = computed.data.shape_keys.key_blocks[0]
     computed.active_shape_key_index = 0
     bpy.ops.object.mode_set(mode="EDIT")
@@ -97,7 +97,7 @@ def test_a_handle_whose_empty_is_gone_rests(bpy: Any, computed: Any) -> None:
 
 
 def test_a_linked_copy_follows_and_has_no_model_of_its_own(bpy: Any, computed: Any) -> None:
-    """Without empties of its own it does not put the common mesh back to rest."""
+    """The copy has no empties, and does not put the shared mesh back to rest."""
     twin = computed.copy()
     bpy.context.scene.collection.objects.link(twin)
     rest = drawn(bpy, computed)

@@ -37,7 +37,7 @@ def with_duplicate(v: Vertices, f: Faces) -> Surface:
 
 
 def with_turned_duplicate(v: Vertices, f: Faces) -> Surface:
-    """Without both copies there would be a hole, so it is no wall between solids."""
+    """Without both copies there would be a hole, so they are no wall between solids."""
     return v, np.concatenate([f, f[:1, ::-1]])
 
 

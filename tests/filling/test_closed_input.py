@@ -12,7 +12,7 @@ from .surfaces import surface_of
 
 
 def notice_without(faces: int) -> str:
-    """The notice about a bar of which the first faces are missing."""
+    """The notice about a bar without its first faces."""
     vertices, triangles = surface_of(bar(4, 2, 2))
     with pytest.warns(MeshNotice) as caught:
         closed_input(vertices, triangles[faces:], who="fill", mend=True, leave_open=True)

@@ -49,7 +49,7 @@ def test_vertices_and_faces_are_those_of_read_surface(tmp_path: Path, kind: str)
 
 @pytest.mark.parametrize("kind", ["obj", "off", "ply ascii", "ply binary_little_endian"])
 def test_texts_may_begin_with_a_byte_order_mark(tmp_path: Path, kind: str) -> None:
-    """As editors of Windows write it."""
+    """Editors on Windows write one."""
     file = write_file(tmp_path, kind)
     before = open_surface(file)
     content = file.read_bytes()

@@ -1,4 +1,4 @@
-"""Files of surfaces that are as rigid as possible have what the stars leave of the energy."""
+"""Files of as-rigid-as-possible surfaces have what the stars leave of the energy."""
 
 from __future__ import annotations
 

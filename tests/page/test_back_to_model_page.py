@@ -1,4 +1,4 @@
-"""From the handles on a model's body the page goes back to the model as it was."""
+"""From choosing handles on a model's body, the page returns to the model as it was."""
 
 from __future__ import annotations
 

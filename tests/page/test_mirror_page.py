@@ -62,7 +62,7 @@ def middle() -> set[int]:
 def test_mirror_pose_swaps_the_sides_and_is_undone(
     posing_model: PosingModel, tmp_path: Path, opened: OpenPage
 ) -> None:
-    """In a page without a server."""
+    """This works in a page without a server."""
     model = replace(posing_model, provenance={"mirror": MIDDLE.content})
     page: Page = opened(export_html(model, tmp_path / "mirror.html").as_uri())
     for handle, (dx, dy) in {1: (50, -40), 2: (-20, 30)}.items():

@@ -187,7 +187,7 @@ def test_drop_downs_keep_their_keys(posing_page: Path, opened: OpenPage) -> None
 
 
 def test_play_and_the_keys_end_each_other(many_poses_page: Path, opened: OpenPage) -> None:
-    """A walk of three poses must not go on with the single pose of a key."""
+    """A walk of three poses must not continue with the single pose of a key."""
     page = opened(many_poses_page.as_uri())
     play, film = button(page, "Play"), button(page, "Play keys")
     pressed = "(e) => e.getAttribute('aria-pressed') === 'true'"

@@ -32,7 +32,7 @@ def problem() -> PosingProblem:
     return mirror_handle(one_ear(), "left ear", plane=PLANE)
 
 
-#: Of the displacement: 58 of the creature's 5019 tets are not mirror images of others.
+#: Share of the displacement; 58 of the creature's 5019 tets are not mirror images of others.
 CLOSE = 3e-3
 
 

@@ -93,7 +93,7 @@ def test_weights_are_named(blending_model: InterpolationModel) -> None:
 
 def test_a_file_gives_the_timeline_back(tmp_path: Path) -> None:
     path = write_timeline(tmp_path / "wave.json", WAVE)
-    path.write_bytes(codecs.BOM_UTF8 + path.read_bytes())  # as editors of Windows do
+    path.write_bytes(codecs.BOM_UTF8 + path.read_bytes())  # as editors on Windows do
     again = read_timeline(path)
     assert (again.kind, again.loop, len(again.keys)) == ("posing", True, 3)
     for key, known in zip(again.keys, WAVE.keys, strict=True):
