@@ -21,7 +21,7 @@ namespace snapspace {
 /// u (3n, x0 y0 z0 x1 ...) from the rest shape. For a shell, the tets are triangles and hinges.
 /// Real is double, or a pack with one sample per lane. Templates over densities end at this class:
 /// its sums are compiled for every density and pack, and one is chosen for every few dozen tets.
-/// Solvers and other callers know no density.
+/// Solvers and other callers do not depend on the density.
 class ElasticEnergy {
  public:
   /// @throws std::invalid_argument  if the material has moduli for a different number of tets

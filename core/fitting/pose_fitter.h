@@ -22,7 +22,7 @@ struct FitOptions {
   double deviation = 0.0;        ///< goal: root mean square distance of surface and target
   double first_stiffness = 0.0;  ///< of the surface; see PoseFitter
   double stretch = 0.0;          ///< bound for every tet; see BoundedStretch
-  int max_iterations = 300;      ///< most Newton steps of all stages together
+  int max_iterations = 300;      ///< maximum of Newton steps in all stages
 };
 
 struct FitReport {

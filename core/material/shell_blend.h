@@ -11,7 +11,7 @@ namespace snapspace {
 ///
 /// A triangle has F_k = F_0 A_k, with the constant map A_k (2 x 2) between the tangent frames, and
 /// its membrane collapses as `Membrane::Blend` says. A hinge has a quadratic polynomial of the
-/// strain against pose 0, see HingeForm: all poses share the product of areas that lets bending
+/// strain relative to pose 0, see HingeForm: all poses share the product of areas that lets bending
 /// vanish.
 /// The numbers that follow these sums are the same for all poses: whether the element is a
 /// triangle, whether it is a hinge, and the numbers of the rest shape in pose 0.

@@ -13,8 +13,8 @@ namespace snapspace::online {
 
 /// BFGS on the inverse Hessian (Nocedal & Wright 2006, alg. 6.1) with a line search for the weak
 /// Wolfe conditions, which keep the inverse positive definite. An iteration passes over the inverse
-/// once: the update of the iteration before is done on the way, and the next direction follows from
-/// the product with the new gradient. The constructor allocates all memory.
+/// once: the update of the previous iteration is done on the way, and the next direction follows
+/// from the product with the new gradient. The constructor allocates all memory.
 class Bfgs {
  public:
   explicit Bfgs(int capacity)

@@ -74,7 +74,7 @@ snapspace_session* snapspace_create_posing(int dimension, int handles, const dou
  * as-rigid-as-possible surface. */
 typedef struct snapspace_material {
   const char* kind;     /* name of the density, such as "stable-neo-hookean" */
-  int count;            /* rows of moduli: 1 if all tets share them, or one per tet; of a shell
+  int count;            /* rows of moduli: 1 if all tets share them, or one per tet; for a shell,
                            one per element */
   const double* moduli; /* count x number of the density's moduli, in its order */
 } snapspace_material;

@@ -14,7 +14,7 @@ namespace {
 
 /// Growth of the shift.
 constexpr double kMoreShift = 4.0, kMostShift = 1e6;
-/// Least sum of two stretches of a star: with less its rotation is hardly defined.
+/// Smallest sum of two stretches of a star; below it, the rotation is hardly defined.
 constexpr double kLeastStretches = 0.05;
 
 /// The sum of hat (x) gradient over corners. In a function of its own, because sums stay in

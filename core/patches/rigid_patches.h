@@ -18,7 +18,7 @@ class RigidPatches {
 
   /// @param shape  3n
   /// @param edges  with their mean lengths in all shapes, so that patches have their mean size
-  /// @param most   most patches: the coarse matrix is dense
+  /// @param most   maximum number of patches, limited because the coarse matrix is dense
   RigidPatches(const double* shape, const EdgeGraph& edges, int most);
 
   [[nodiscard]] int count() const { return count_; }

@@ -12,10 +12,11 @@ namespace snapspace {
 
 namespace {
 
-/// Most patches of a surface. With 30, 60 and 100, a sample of the Centaur takes 34, 29 and 27
-/// evaluations.
+/// Maximum number of patches of a surface. With 30, 60 and 100, a sample of the Centaur takes 34,
+/// 29 and 27 evaluations.
 constexpr int kMostPatches = 64;
-/// Most patches of a solid. With 64, blends take as many evaluations, and seeds take longer.
+/// Maximum number of patches of a solid. With 64, blends take as many evaluations, and seeds take
+/// longer.
 constexpr int kMostPatchesOfSolids = 32;
 /// Solids with fewer tets have no patches. A seed takes 2 ms for any number of tets; with 8,000
 /// tets, a blend takes 23 ms with patches and 17 ms without.
