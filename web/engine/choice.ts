@@ -114,7 +114,7 @@ export function withMirrored(choice: Choice, key: number, image: HandleChoice): 
   return { ...choice, handles };
 }
 
-/** Takes the selected vertices out of all handles. */
+/** Removes the selected vertices from all handles. */
 export function withFree(choice: Choice): Choice {
   return { ...choice, handles: withoutVertices(choice.handles, choice.selected) };
 }

@@ -23,7 +23,7 @@ interface ModelBase {
   readonly coordinateScale: number;
   /** Diagonal of the mesh at rest, or of the first pose. */
   readonly diagonal: number;
-  /** Name of the material. The page knows no more of it: the core does. */
+  /** Name of the material. The page knows only the name; the core knows the rest. */
   readonly material: string;
   /** The materials of the user's own file; null without any. */
   readonly appearance: Appearance | null;
@@ -90,7 +90,7 @@ export interface Cubature {
   /** Displacement gradients of the modes, tets x 9 x dimension, or what the core makes them of; or with clusters those of
    * local coordinates, one cluster after the other, tets x 9 x rank. */
   readonly rows: Float32Array<ArrayBuffer> | CornerModes;
-  /** Clusters of tets with local coordinates; null without. */
+  /** Clusters of tets with local coordinates; null if there are none. */
   readonly clusters: Clusters | null;
   /** The volume that each tet stands for. */
   readonly weights: Float64Array<ArrayBuffer>;
@@ -115,7 +115,7 @@ export interface PoseQuartics {
 
 /** The blended energy as a sum over the same few tets of all poses; rows and weights are those of the first. */
 export interface BlendedCubature extends Cubature {
-  /** Corners of the tets in every pose, and at last in the mean shape: (poses + 1) x tets x 4 x 3. */
+  /** Corners of the tets in every pose, and finally in the mean shape: (poses + 1) x tets x 4 x 3. */
   readonly corners: Float64Array<ArrayBuffer>;
 }
 
@@ -155,7 +155,7 @@ export interface BlendingModel extends ModelBase {
   /** The poses registered to the mean shape, as tau + one mode per pose: with weights that sum to one
    * its shapes are the linear blends. */
   readonly poseSpace: ShapeSpace;
-  /** The least weight that was sampled. */
+  /** The smallest weight that was sampled. */
   readonly lowestWeight: number;
   readonly blends: PoseQuartics | BlendedCubature | BlendedStars;
   /** Weights and coordinates of the samples that the model was trained with. */

@@ -83,12 +83,12 @@ export class PosingSession {
     return plus(this.model.handles[handle].center, this.motion(handle).translation);
   }
 
-  /** Puts a handle at a motion from rest, Euler angles in radians, and solves. */
+  /** Sets the motion of a handle from rest, with Euler angles in radians, and solves. */
   move(handle: number, euler: Vector, translation: Vector): FrameReport {
     return this.moveAll(new Map([[handle, { rotation: rotationOfEuler(euler), translation }]]));
   }
 
-  /** Puts some handles at motions from rest, and solves once. Motions whose energy is not finite are undone.
+  /** Sets the motions of some handles from rest, and solves once. Motions whose energy is not finite are undone.
    * After a jump to motions that are nearer to rest than to the last ones, the solve starts at rest: from a far shape
    * it could take hundreds of iterations. */
   moveAll(motions: ReadonlyMap<number, Motion>): FrameReport {
@@ -102,7 +102,7 @@ export class PosingSession {
     return report;
   }
 
-  /** Goes back to a frame that was solved before: motions of all handles from rest, and its coordinates. */
+  /** Returns to a frame that was solved before: motions of all handles from rest, and its coordinates. */
   restore(motions: readonly Motion[], q: ArrayLike<number>): void {
     this.#set(this.#mapsOf(new Map(motions.entries())));
     this.#core.q = q;

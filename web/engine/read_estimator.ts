@@ -53,7 +53,7 @@ export interface ProbeSample {
   readonly pins: FindPins;
 }
 
-/** Takes the elements around the sampled vertices. */
+/** A probe of the elements around the sampled vertices. */
 function elementProbe(
   { elements: tets, material }: FileBody,
   { basis, tau, rests }: Shapes,

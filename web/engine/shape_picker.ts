@@ -42,7 +42,8 @@ export class ShapePicker {
     this.#stamps = new Uint32Array(space.vertices);
   }
 
-  /** Takes a shape, or the one at a share of the path from there to the goal. Costs nothing until something is picked. */
+  /** Sets the shape, or the one at a share of the path from there to the goal. Costs nothing until something is picked.
+   * */
   show(coefficients: ArrayLike<number>, share = 0): void {
     this.#coefficients = coefficients;
     this.#share = this.#goal ? share : 0;

@@ -17,7 +17,7 @@ export class StrainScale {
   readonly #shape: Float32Array;
   #end = LEAST;
 
-  /** Takes the sampled triangles out of the surface, so that the cost does not grow with it. */
+  /** Copies the sampled triangles from the surface, so that the cost does not grow with it. */
   constructor(space: ShapeSpace, rests: Rests, faces: Uint32Array) {
     const count = faces.length / 3;
     const sampled = Math.min(count, TRIANGLES);

@@ -116,7 +116,7 @@ function visibleMeshes(scene: Object3D): Mesh[] {
   return found;
 }
 
-/** What is opaque, then what is transparent from far to near; in each of both `renderOrder` comes first. */
+/** Opaque meshes, then transparent ones from far to near; within both groups, `renderOrder` comes first. */
 function inOrder(meshes: readonly Mesh[], camera: PerspectiveCamera): Mesh[] {
   const place = new Vector3();
   const depths = new Map(

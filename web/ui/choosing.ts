@@ -66,7 +66,7 @@ export class Choosing {
     return this.#stroke ?? this.#choice.selected;
   }
 
-  /** Takes a choice, as a step that can be undone. */
+  /** Sets the choice, as a step that can be undone. */
   go(choice: Choice): void {
     this.#stroke = null;
     this.#choice = choice;

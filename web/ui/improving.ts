@@ -23,7 +23,8 @@ export class Improving {
     this.#improver = improver;
   }
 
-  /** Takes the points that are kept now. If none of those that were ordered is left, nothing more needs to be computed. */
+  /** Sets the points that are kept now. If none of those that were ordered is left, nothing more needs to be computed.
+   * */
   keep(points: readonly Message[]): void {
     this.#kept = points;
     const names = points.map(({ name }) => name);

@@ -17,7 +17,7 @@ export class PageJob {
     return this.#now.isRunning;
   }
 
-  /** Takes what the server says. */
+  /** Sets what the server reports. */
   set(request: number, isRunning: boolean): void {
     [this.#now, this.#before] = [{ request, isRunning }, null];
   }

@@ -95,7 +95,7 @@ export class Pulling {
     }
   }
 
-  /** Takes those pulls, before that model is shown; `posing` continues with what this returns. */
+  /** Adopts those pulls, before that model is shown; `posing` continues with what this returns. */
   become(session: PosingSession, pulls: Pulls | null): Pulled | null {
     const held = this.points;
     this.#kept = this.#kept.filter(isFreeIn(session));

@@ -113,7 +113,8 @@ export class TimelinePanel<State> {
     this.#take(this.#timeline.map(other));
   }
 
-  /** Takes the keys from before another view or a reload, else the timeline that the model came with; the shape stays. */
+  /** Restores the keys from before another view or a reload, else the timeline that the model came with; the shape
+   * stays. */
   begin(before: string | null | undefined, own: unknown): void {
     const { kept, handles = [] } = this.#animated;
     const text = before ?? kept?.keys;
