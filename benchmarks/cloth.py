@@ -78,7 +78,7 @@ class Watch:
         self.areas = [1.0, 1.0]
 
     def see(self, shape: FloatArray, held: NDArray[np.intp]) -> None:
-        """Takes a frame; `held` are the vertices of handles."""
+        """Processes a frame; `held` are the vertices of handles."""
         if not np.isfinite(shape).all():
             self.not_finite += 1
             return
