@@ -60,7 +60,7 @@ def test_a_reload_keeps_keys(posing_page: Path, opened: OpenPage) -> None:
     add_two_keys(page)
     page.page.goto("about:blank")
     page.open()
-    assert page.run(KEYS) == [], "a page that is opened anew begins without"
+    assert page.run(KEYS) == [], "a page that is opened again begins without keys"
 
 
 def test_a_reload_keeps_keys_of_blends(blending_page: Path, opened: OpenPage) -> None:

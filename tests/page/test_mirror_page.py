@@ -92,7 +92,7 @@ def flat(motions: dict[int, tuple[list[float], list[float]]]) -> list[float]:
     return [x for motion in motions.values() for part in motion for x in part]
 
 
-def test_where_it_cannot_the_button_says_why(
+def test_where_a_pose_cannot_be_mirrored_the_button_says_why(
     posing_model: PosingModel, tmp_path: Path, opened: OpenPage
 ) -> None:
     far = MirrorPlane((1, 0, 0), (50, 0, 0))

@@ -71,7 +71,7 @@ def test_a_homogeneous_strain_has_the_energy_of_its_density(
 
 
 @each
-def test_a_strip_under_tension_has_the_solid_s_young_modulus_and_poisson_ratio(
+def test_a_strip_under_tension_has_the_moduli_of_the_solid(
     material: Material,
 ) -> None:
     young, poisson = 2.0, 0.4
@@ -194,7 +194,7 @@ def cylinder_ratio(mesh: ShellMesh, direction: float, curvature: float = 0.2) ->
     return float(bent / (rigidity / 2 * curvature**2 * inner))
 
 
-def test_a_plate_bent_to_a_cylinder_has_the_continuum_s_energy() -> None:
+def test_a_plate_bent_to_a_cylinder_has_the_energy_of_the_continuum() -> None:
     """Equilateral triangles, in every direction; the error falls with the width of the margin."""
     for direction in (0.0, 0.3, 1.2):
         errors = [
