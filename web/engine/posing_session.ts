@@ -108,7 +108,7 @@ export class PosingSession {
     this.#core.q = q;
   }
 
-  /** Moves time on by dt seconds, in which some handles come to motions from rest: the body swings after them. */
+  /** Advances time by dt seconds, in which some handles get new motions from rest: the body swings after them. */
   step(dt: number, motions: ReadonlyMap<number, Motion> = new Map()): FrameReport {
     const [before, last] = [this.#maps, this.time.moving(this.#maps[0])];
     if (motions.size > 0) this.#set(this.#mapsOf(motions));
@@ -122,7 +122,7 @@ export class PosingSession {
     return this.time.speed(this.#maps[0]) / this.model.coordinateScale;
   }
 
-  /** Solves for what is set, from the present shape. */
+  /** Solves for the present motions, from the present shape. */
   solve(): FrameReport {
     this.time.stop();
     return this.#core.solve(this.#stop);

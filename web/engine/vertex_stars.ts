@@ -83,7 +83,7 @@ export class VertexStars {
     return numbers;
   }
 
-  /** Those of these stars at some vertices, in the same order for all shapes of a surface. */
+  /** The parts of these stars at some vertices, in the same order for all shapes of a surface. */
   parts(vertices: Int32Array): StarParts {
     const place = new Map(Array.from(vertices, (vertex, i) => [vertex, i]));
     const [stars, places, vectors]: number[][] = [[], [], []];
@@ -107,7 +107,7 @@ export class VertexStars {
 
 interface Star {
   readonly area: number;
-  /** The same of area times stiffness. */
+  /** The same for area times stiffness. */
   readonly weight: number;
   /** L L^T is the mean of the projections onto the planes of the triangles. */
   readonly L: number[][];

@@ -26,7 +26,7 @@ export interface BlendPanel {
   illustrate(pose: number, address: string): void;
 }
 
-/** The least and the greatest weight of one of some poses. */
+/** The smallest and the largest weight of one of some poses. */
 export type EndsOf = (poses: readonly number[], pose: number) => WeightEnds;
 /** Milliseconds. */
 const TURN = 8;
