@@ -19,7 +19,7 @@ def notice_without(faces: int) -> str:
     return str(caught[0].message)
 
 
-def test_what_was_mended_is_said_and_what_is_still_open() -> None:
+def test_the_notice_says_what_was_mended_and_what_is_still_open() -> None:
     closed = notice_without(1)
     assert closed.startswith("the surface was mended for filling: closed 1 hole with 1 face")
     assert "not closed" not in closed

@@ -243,7 +243,7 @@ def hinge_angles(mesh: ShellMesh) -> FloatArray:
 
 @each
 def test_a_developable_strip_only_bends(material: Material) -> None:
-    """Rolled by an isometry the membrane's share falls at order four, and not the hinges'."""
+    """If it is rolled by an isometry, only the membrane's share falls at order four."""
     shares = []
     for n in (8, 16, 32):
         mesh = sheet(n, n, thickness=0.05)
@@ -269,7 +269,7 @@ def test_per_triangle_moduli_are_those_of_their_triangles() -> None:
     assert same.value(x) == even.value(x)
 
 
-def test_what_triangles_do_not_need_of_their_rows_is_zero() -> None:
+def test_numbers_that_triangles_do_not_use_are_zero() -> None:
     mesh = irregular(20)
     rows = element_material(mesh, StVK(), who="test").moduli
     assert not rows[: len(mesh.triangles), 9:].any()
