@@ -195,9 +195,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("surface", nargs="?", type=Path, help="default: a generated one")
-    parser.add_argument("--rings", type=int, default=305, help="of the generated one")
-    parser.add_argument("--edge-length", default="0.025", help="of the tets, as for view")
+    parser.add_argument("surface", nargs="?", type=Path, help="default: a generated surface")
+    parser.add_argument("--rings", type=int, default=305, help="rings of the generated surface")
+    parser.add_argument("--edge-length", default="0.025", help="as for view")
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()
     program = shutil.which("chromium") or sys.exit("needs chromium on the path")

@@ -79,7 +79,7 @@ def main() -> None:
     )
     parser.add_argument("--surface", choices=SURFACES, action="append", help="default: all")
     parser.add_argument("--thickness", type=float, default=0.01, help="share of the diagonal")
-    parser.add_argument("--hinges", action="store_true", help="not as rigid as possible")
+    parser.add_argument("--hinges", action="store_true", help="hinges instead of ARAP")
     parser.add_argument("--motions", type=int, default=15, help="number of unseen motions")
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()

@@ -165,9 +165,9 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--set", choices=blend_paths.SETS, default="lion")
-    parser.add_argument("--parts", type=int, nargs="+", default=[1, 10], help="of every edge")
+    parser.add_argument("--parts", type=int, nargs="+", default=[1, 10], help="parts of every edge")
     parser.add_argument("--poses", type=int, default=2, help="the first ones of the set")
-    parser.add_argument("--radius", type=float, default=BLEND_RADIUS, help="of the stars")
+    parser.add_argument("--radius", type=float, default=BLEND_RADIUS, help="radius of the stars")
     parser.add_argument("--target-error", type=float, metavar="SHARE")
     parser.add_argument("--most-samples", type=int, default=20)
     parser.add_argument("--frames", type=int, default=600)

@@ -28,7 +28,7 @@ from .timing import timed
 class Row:
     """A row of the paper's table.
 
-    name : of our case
+    name : name of our case
     shape : the paper's shape, if it is another
     vertices, tets : in thousands
     samples, dimension : numbers of samples and modes

@@ -22,7 +22,7 @@ struct ShellBlend {
   static constexpr int kRest = 12;  ///< numbers of a rest shape, see ShellDensity
   static constexpr int kConstants = 2 + kRest;
   static constexpr int kNumbers = kSums + kConstants;
-  static_assert(kSums >= 3, "room for a HingeForm");
+  static_assert(kSums >= 3, "space for a HingeForm");
 
   /// @param numbers  of the density in the pose, with moduli times the element's measure there
   /// @param first    those in pose 0

@@ -36,7 +36,7 @@ class Vibrations:
     rigid : (3n, 6) M-orthonormal infinitesimal rigid motions
     modes : (3n, m), softest first
     eigenvalues : (m,), ascending
-    solver : of K + s M with a small shift s, by which K becomes definite
+    solver : solver for K + s M, with a small shift s that makes it definite
     """
 
     energy: core.ElasticEnergy
