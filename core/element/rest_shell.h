@@ -123,7 +123,7 @@ class RestShellElement {
 
   const std::int32_t* corners_;
   double edges_[3][3];  // edge by edge
-  double normal_[3];    // of the first triangle, as long as twice its area
+  double normal_[3];    // normal of the first triangle, as long as twice its area
   double length_, twice_area_;
 };
 

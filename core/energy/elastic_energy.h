@@ -122,7 +122,7 @@ class ElasticEnergy {
   template <class Real>
   void add_shell_rest_product(const Real* v, Real* product) const;
 
-  StreamedVector<double> moduli_;        // of each tet, times its volume
+  StreamedVector<double> moduli_;        // moduli of each tet times its volume
   StreamedVector<float> single_moduli_;  // the same in single precision
   double force_unit_;
   StreamedVector<double> lame_;  // lam and mu of small strains, times volume, by the force unit

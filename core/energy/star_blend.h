@@ -79,7 +79,7 @@ class StarBlend {
   std::size_t poses_;
   std::vector<std::int32_t> first_corner_, corners_;        // as those of VertexStars
   std::vector<std::int32_t> first_neighbour_, neighbours_;  // the same
-  std::vector<std::int32_t> centers_;                       // of the stars, ascending
+  std::vector<std::int32_t> centers_;                       // centers of the stars, ascending
   StreamedVector<double> vertex_numbers_, star_numbers_;    // one by one
 };
 

@@ -34,7 +34,7 @@ class VertexStars {
 
   [[nodiscard]] int count() const { return static_cast<int>(weights.size()); }
 
-  std::vector<SweepStop> stops;  ///< of a pass over the stars; `tets` are stars
+  std::vector<SweepStop> stops;  ///< stops of a pass over the stars; `tets` are stars
 
   /// Corners of star i, first its center: first_corner[i] to before first_corner[i + 1]. H_i is the
   /// sum of u_j (x) gradient_j. Centers ascend.

@@ -75,7 +75,7 @@ class BlendedCubature final : public TetEnergies {
   bool collapses_;
   int numbers_count_, moduli_count_;   // per tet and pose
   int sums_count_;                     // the numbers that are summed over the poses
-  std::vector<double> weights_;        // of the poses
+  std::vector<double> weights_;        // weights of the poses
   std::vector<Tets> offsets_;          // block, entry: displacement gradients of tau
   std::vector<double> maps_, moduli_;  // tet, pose: A - I, and the moduli times volume
   std::vector<Tets> numbers_;          // block, pose: see PoseBlend

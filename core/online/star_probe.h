@@ -44,7 +44,7 @@ class StarProbe : public ResidualProbe {
   std::vector<std::int32_t> part_stars_, part_places_;
   std::vector<double> part_vectors_, weights_;
   PinSprings pins_;
-  std::vector<double> numbers_, stresses_;  // of a pose; 9 per star
+  std::vector<double> numbers_, stresses_;  // numbers of a pose; 9 stresses per star
   std::vector<double> gradient_;            // 3 per place
 };
 

@@ -87,7 +87,7 @@ class TetRows {
   /// All tets are in one cluster without modes if their maps are of q itself.
   struct Cluster {
     int first, end;     ///< its first block, and the one after its last
-    int rank, pairs;    ///< of local coordinates
+    int rank, pairs;    ///< numbers of local coordinates, and of pairs of these
     int stride;         ///< pairs of a block's words
     std::size_t words;  ///< where its words begin
     LocalModes modes;   ///< empty if local coordinates are q itself
@@ -97,10 +97,10 @@ class TetRows {
   /// What half of an evaluation works on.
   struct Half {
     std::vector<double> local;     ///< local coordinates of the present cluster, or q
-    std::vector<Tets> local_sums;  ///< of its forces
-    std::vector<Tets> sums;        ///< of the forces of q, lane by lane
+    std::vector<Tets> local_sums;  ///< sums of the forces of these coordinates
+    std::vector<Tets> sums;        ///< sums of the forces of q, lane by lane
     std::vector<LocalModes::Pack> packs;
-    std::vector<double> hessian, modes, product;  ///< of the present cluster
+    std::vector<double> hessian, modes, product;  ///< work arrays of the present cluster
   };
 
   [[nodiscard]] std::span<const int> blocks_of(int half) const {
@@ -150,7 +150,7 @@ class TetRows {
   }
 
   int capacity_, dimension_;
-  int pairs_;  // of coordinates, for the current dimension
+  int pairs_;  // number of pairs of coordinates, for the current dimension
   int tets_;
   std::vector<int> all_, active_;  // blocks, ascending
   std::vector<Cluster> clusters_;

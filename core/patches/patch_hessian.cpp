@@ -123,7 +123,7 @@ void PatchHessian::add_rotation(const Part& part, int star) {
   const VertexStars& stars = *part.stars;
   const int first = stars.first_corner[star], count = stars.first_corner[star + 1] - first;
   const double* const gradients = &stars.gradients[3 * static_cast<std::size_t>(first)];
-  Matrix F = Matrix::Zero();  // of the whole shape, since the hats sum to one
+  Matrix F = Matrix::Zero();  // map of the whole shape, since the hats sum to one
   for (std::size_t m = 0; m < touched_.size(); ++m) {
     moments_[m] = moments_of(count, gradients, &hats_[m * count]);
     F += moments_[m].bottomRows<3>();
@@ -225,7 +225,7 @@ void PatchHessian::hold_translations() {
 
 /// A patch of one or two vertices may turn without moving them.
 void PatchHessian::hold_small_patches() {
-  constexpr double kLeast = 1e-6;  // of the mean stiffness
+  constexpr double kLeast = 1e-6;  // share of the mean stiffness
   double sum = 0.0;
   for (int a = 0; a < patches_.count(); ++a)
     for (int r = 3; r < kMotions; ++r) sum += dirichlet_(kMotions * a + r, kMotions * a + r);

@@ -121,7 +121,7 @@ class InterpolationObjective final : public LaneObjective<Real> {
   const InterpolationSystem& system_;
   int threads_;
   std::vector<Real> blend_;
-  std::vector<Real> second_half_;  // of the gradient
+  std::vector<Real> second_half_;  // second half of the gradient
   Scratch scratch_;
 };
 

@@ -58,7 +58,7 @@ class InterpolationSystem final : public SampleSystem {
  private:
   struct Patches {  // shared like the energy; null if there are none
     std::shared_ptr<const RigidPatches> rigid;
-    std::shared_ptr<const TetSample> tets;  // of solids
+    std::shared_ptr<const TetSample> tets;  // for solids
   };
   struct Seed {
     Patches patches;

@@ -288,7 +288,7 @@ class LaneLbfgs {
   Vectors vectors_;
   Pairs pairs_[kWidth];
   Lane lanes_[kWidth];
-  TrialOutcome trial_outcomes_[kWidth];  // of the last trials
+  TrialOutcome trial_outcomes_[kWidth];  // outcomes of the last trials
   bool pending_ = false;  // whether the vectors still need the update for these outcomes
   Total scale_ = 1.0;     // A^-1 gradient = scale_ * single_gradient() at the last trials
   Total steps_ = 0.0;     // to the trials, as shares of the directions

@@ -82,7 +82,7 @@ def test_an_independent_reader_finds_the_moved_shape(tmp_path: Path, kind: str) 
 
 def _meshes(path: Path) -> list[trimesh.Trimesh]:
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of trimesh, about the vertex without faces
+        warnings.simplefilter("ignore")  # trimesh warns of the vertex without faces
         return trimesh.load_scene(path, process=False, maintain_order=True).dump()
 
 

@@ -20,7 +20,7 @@ import { beyondBox } from "./sampled_box.ts";
 import { TimeSteps } from "./time_steps.ts";
 
 const WARMING = 8; // solves
-const WARMING_SHARE = 0.05; // of the diagonal
+const WARMING_SHARE = 0.05; // share of the diagonal
 
 /** A motion of a handle from rest, about its centroid. */
 export interface Motion {

@@ -16,7 +16,7 @@ import { rayAt } from "./canvas_ray.ts";
 import type { Posing } from "./posing.ts";
 import type { Motions } from "./view.ts";
 
-const DOT = 0.02; // of the diagonal
+const DOT = 0.02; // share of the diagonal
 const WHITE = new Color("#ffffff");
 
 /** A point that is pulled, with the name that it has as a handle. */
