@@ -57,7 +57,7 @@ def test_a_shorter_bake_leaves_no_keyframes_of_a_longer_one(bpy: Any, animated: 
 
 
 def test_a_new_model_after_a_bake_is_live_alone(bpy: Any, animated: Any) -> None:
-    """Baked keys were added to the live shape, and counted as poses to blend."""
+    """Baked keys were once added to the live shape, and counted as poses to blend."""
     assert bpy.ops.snapspace.bake() == {"FINISHED"}
     assert bpy.ops.snapspace.compute() == {"FINISHED"}
     assert animated.snapspace.live and all(key.mute for key in baked(animated))
@@ -113,7 +113,7 @@ def test_a_linked_copy_follows_and_has_no_model_of_its_own(bpy: Any, computed: A
 def test_the_model_goes_where_the_file_is_saved(
     bpy: Any, request: pytest.FixtureRequest, tmp_path: Path, first: str
 ) -> None:
-    """A model of an unsaved file stayed in the folder for temporary files."""
+    """A model of an unsaved file once stayed in the folder for temporary files."""
     request.getfixturevalue(first)
     assert bpy.ops.snapspace.compute() == {"FINISHED"}
     folder = tmp_path / "elsewhere"

@@ -58,7 +58,7 @@ def test_easings_hold_run_and_glide() -> None:
 
 
 def test_a_session_is_at_each_key_at_its_time(posing_model: PosingModel) -> None:
-    """A handle stays where the key before had it, and begins at rest."""
+    """A handle begins at rest, and stays where the previous key had it."""
     session, other = posing_model.session(), posing_model.session()
     session.move("belly", translation=(0.1, 0.0, 0.0))  # forgotten: a timeline begins with its key
     frames = [session.vertices for _ in session.animate(WAVE, frames=7)]  # every quarter second
