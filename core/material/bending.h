@@ -22,7 +22,7 @@ struct TangentBend {
 };
 
 /// f = theta [Grinspun, Hirani, Desbrun, Schroeder 2003] plus a hundredth of the difference between
-/// the other measure and theta: 0.3 % more at a right angle, 12 % at 170 degrees.
+/// the other measure and theta: 0.3 % more at a right angle, 7 % at 170 degrees.
 struct AngleBend {
   template <class Real>
   static Bend<Real> of(Real t) {
