@@ -184,7 +184,9 @@ def main() -> None:
     parser.add_argument("--set", nargs="+", choices=SETS, default=list(SETS))
     parser.add_argument("--material", nargs="+", default=["stvk", "stable-neo-hookean"])
     parser.add_argument("--shell", action="store_true", help="blend surfaces, without tets")
-    parser.add_argument("--radius", type=float, default=BLEND_RADIUS, help="of the stars of arap")
+    parser.add_argument(
+        "--radius", type=float, default=BLEND_RADIUS, help="radius of the stars of arap"
+    )
     parser.add_argument("--target-error", type=float, default=0.005, metavar="SHARE")
     parser.add_argument("--samples", type=int, default=40, help="number of samples, for stvk")
     parser.add_argument("--dimension", type=int, default=30, help="d, for stvk")

@@ -1,4 +1,4 @@
-"""Uniform samples against blends of few poses: projection errors at unseen blends of 2, 3 and all.
+"""Uniform samples against blends of few poses: projection errors at blends of 2, 3 and all poses.
 
 python benchmarks/blends.py --poses 12 --seed 13
 """

@@ -4,14 +4,14 @@
     python benchmarks/cloth.py --triangles 10000 --drags 10000 --json
     python benchmarks/cloth.py --hinges --thickness 0.02   # neo-Hookean, with hinges
 
-The model is that of a default build. A drag takes one corner, as seen from the other one, to a
-random place of the sampled box that is at most `--reach` half widths away, and is one frame of the
+The model is that of a default build. A drag moves one corner, relative to the other one, to a
+random point of the sampled box that is at most `--reach` half widths away. It is one frame of the
 reduced session; with `--reach 2` it jumps through the whole box, often to its walls. Nothing may be
 lost, turned over or thrown away:
 
 - *not finite*, *not converged*: frames;
-- *size*: farthest vertex from the held corners' middle, in diagonals of the cloth;
-- *speed*: longest way of a vertex between two frames, over the longest way of a vertex of a handle;
+- *size*: distance of the farthest vertex from the midpoint of the held corners, in diagonals;
+- *speed*: largest motion of a vertex between two frames, over that of a vertex of a handle;
 - *bend*: largest angle between two neighbouring triangles in any frame, in degrees. Beyond 180 they
   would have turned over; an angle is followed from frame to frame by the signs of its sine;
 - *area*: smallest and largest ratio of a triangle's area to that at rest.
@@ -78,7 +78,7 @@ class Watch:
         self.areas = [1.0, 1.0]
 
     def see(self, shape: FloatArray, held: NDArray[np.intp]) -> None:
-        """Takes a frame; `held` are the vertices of handles."""
+        """Processes a frame; `held` are the vertices of handles."""
         if not np.isfinite(shape).all():
             self.not_finite += 1
             return
@@ -167,9 +167,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--triangles", type=int, default=10_000)
     parser.add_argument("--thickness", type=float, default=0.02, help="share of the diagonal")
-    parser.add_argument("--hinges", action="store_true", help="not as rigid as possible")
+    parser.add_argument("--hinges", action="store_true", help="hinges instead of ARAP")
     parser.add_argument("--drags", type=int, default=10_000)
-    parser.add_argument("--reach", type=float, default=0.2, help="of a drag, in half widths")
+    parser.add_argument("--reach", type=float, default=0.2, help="longest drag, in half widths")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     args = parser.parse_args()

@@ -5,11 +5,11 @@
     python benchmarks/opening.py --rings 501         # a million faces
 
 The page is that of `snapspace view` in headless Chromium with software rendering. The surface is
-given to the server (view), or dropped on the page (upload). The server's processor time is that
-since it was asked for the page; the main thread's tasks are those from a trace, from the page's
-start to the first ray after there are tets. Each is given in wall time and in processor time: on a
-busy machine only the latter says what users get. Graphics that are drawn in software take seconds,
-which graphics processors do in milliseconds; their time is beside it.
+given to the server (view), or dropped on the page (upload). The server's processor time counts from
+the request for the page. The main thread's tasks come from a trace that runs from the page's start
+to the first ray after there are tets. Each is given in wall time and in processor time: on a busy
+machine only the latter says what users get. Software rendering takes seconds for what graphics
+processors do in milliseconds; its time is listed separately.
 """
 
 from __future__ import annotations
@@ -195,9 +195,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("surface", nargs="?", type=Path, help="default: a generated one")
-    parser.add_argument("--rings", type=int, default=305, help="of the generated one")
-    parser.add_argument("--edge-length", default="0.025", help="of the tets, as for view")
+    parser.add_argument("surface", nargs="?", type=Path, help="default: a generated surface")
+    parser.add_argument("--rings", type=int, default=305, help="rings of the generated surface")
+    parser.add_argument("--edge-length", default="0.025", help="as for view")
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()
     program = shutil.which("chromium") or sys.exit("needs chromium on the path")

@@ -62,7 +62,7 @@ def unseen_snapshots(problem: ss.PosingProblem, count: int, *, threads: int | No
 
 
 def solve(problem: ss.PosingProblem, method: str, args: argparse.Namespace) -> Any:
-    """The snapshots, and a function that returns the seconds until so many were finished."""
+    """The snapshots, and a function of a number of samples: seconds until they were finished."""
     wall, cpu, done = [0.0], [0.0], [0]
     begin = time.perf_counter(), time.process_time()
 

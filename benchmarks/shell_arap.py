@@ -35,7 +35,7 @@ COMPARED = 10
 
 
 def problem_of(name: str, stiffness: float) -> ss.PosingProblem:
-    """A surface of the meshes' folder, as rigid as possible; stiffness in units of the default."""
+    """An ARAP surface of the meshes' folder; stiffness in units of the default."""
     file = ss.open_surface(common.meshes_folder() / "surfaces" / name)
     mesh = shell_of_file(file, thickness=1.0)[0]
     low = mesh.vertices[:, 1]
@@ -150,7 +150,9 @@ def measured(args: argparse.Namespace) -> tuple[list[dict[str, Any]], dict[str, 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--surface", default="spot_low_829.obj")
-    parser.add_argument("--stiffness", type=float, default=100.0, help="in units of the default")
+    parser.add_argument(
+        "--stiffness", type=float, default=100.0, help="stiffness, in units of the default"
+    )
     parser.add_argument("--iterations", type=int, nargs="+", default=[1, 10, 100])
     parser.add_argument("--frames", type=int, default=180)
     parser.add_argument("--samples", type=int, default=300)

@@ -7,8 +7,8 @@
 The lowest and the highest 3 % of the vertices (y) are handles; the highest move by up to 30 degrees
 and a tenth of the diagonal. *First* is the first model that `growing_models` and the page show.
 `cloth` is generated and open; the others come from the folder of meshes. Errors are those of
-motions that the build has not seen, against tight full solutions. *Lower* of these were replaced by
-solutions of lower energy, to which frames of the last model lead.
+motions that the build has not seen, against tight full solutions. *Lower* is how many of these were
+replaced by solutions of lower energy, which frames of the last model lead to.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ def main() -> None:
     )
     parser.add_argument("--surface", choices=SURFACES, action="append", help="default: all")
     parser.add_argument("--thickness", type=float, default=0.01, help="share of the diagonal")
-    parser.add_argument("--hinges", action="store_true", help="not as rigid as possible")
+    parser.add_argument("--hinges", action="store_true", help="hinges instead of ARAP")
     parser.add_argument("--motions", type=int, default=15, help="number of unseen motions")
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()

@@ -5,11 +5,11 @@
     python benchmarks/subdivided_blends.py --parts 1 2 3 --radius 0
     python benchmarks/subdivided_blends.py --set dog --parts 1 4 --poses 3 --most-samples 160
 
-Every edge of all poses is split into so many equal parts, and every triangle into their square,
-which stay in its plane. The models are those of `interpolate --shell`, but of 20 samples at most: a
-sample of 500,000 vertices takes a minute. A path goes through random blends, 60 frames from one to
-the next. *Solves* are in reduced coordinates alone, *frames* have all vertices, too. The peak of
-the memory is that of the process: each row's is no less than that of the rows before.
+Every edge of all poses is split into this many equal parts, and every triangle into the square of
+that number, all in its plane. The models are those of `interpolate --shell`, but with 20 samples at
+most: a sample with 500,000 vertices takes a minute. A path goes through random blends, 60 frames
+from one to the next. *Solves* are in reduced coordinates alone, *frames* have all vertices, too.
+The peak of the memory is that of the process: each row's is no less than that of the rows before.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ FloatArray = NDArray[np.float64]
 def split(
     shapes: FloatArray, triangles: NDArray[np.int32], parts: int
 ) -> tuple[FloatArray, NDArray[np.int32]]:
-    """Shapes (k, n, 3) and triangles (f, 3) with every edge in so many equal parts."""
+    """Shapes (k, n, 3) and triangles (f, 3) with every edge in this many equal parts."""
     # the points of a triangle: how many parts of each corner they have, (p, 3)
     shares = np.array(
         [(i, j, parts - i - j) for i in range(parts + 1) for j in range(parts + 1 - i)]
@@ -78,14 +78,14 @@ class Clock:
         self._stage, self._since = "", time.perf_counter()
 
     def begins(self, stage: str) -> None:
-        """The stage before ends; stages may come several times."""
+        """Begins a stage, which ends the one before; a stage may occur several times."""
         now = time.perf_counter()
         self.seconds[self._stage] = self.seconds.get(self._stage, 0.0) + now - self._since
         self._stage, self._since = stage, now
 
 
 def tell(line: str) -> None:
-    """Shows how a build goes on, and when."""
+    """Prints a line about the progress of a build, with the time."""
     print(f"{time.perf_counter():9.1f} {line}", file=sys.stderr, flush=True)
 
 
@@ -165,9 +165,9 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--set", choices=blend_paths.SETS, default="lion")
-    parser.add_argument("--parts", type=int, nargs="+", default=[1, 10], help="of every edge")
+    parser.add_argument("--parts", type=int, nargs="+", default=[1, 10], help="parts of every edge")
     parser.add_argument("--poses", type=int, default=2, help="the first ones of the set")
-    parser.add_argument("--radius", type=float, default=BLEND_RADIUS, help="of the stars")
+    parser.add_argument("--radius", type=float, default=BLEND_RADIUS, help="radius of the stars")
     parser.add_argument("--target-error", type=float, metavar="SHARE")
     parser.add_argument("--most-samples", type=int, default=20)
     parser.add_argument("--frames", type=int, default=600)

@@ -98,7 +98,7 @@ def scaled(problem: ss.PosingProblem, volume: float, *, stiffness: float) -> ss.
 
 
 def _armadillo(folder: Path) -> Case:
-    """With the paper's volume, and its handle stiffness of 1."""
+    """The Armadillo with the paper's volume and its handle stiffness of 1."""
     problem = ss.read_problem(folder / "problems" / "armadillo.json")
     return Case(scaled(problem, ARMADILLO_VOLUME, stiffness=1.0), "armadillo")
 

@@ -12,7 +12,7 @@ OUTSIDE = 0.12
 
 
 def cut(shape: FloatArray, reference: FloatArray) -> FloatArray:
-    """The vertices (n, 3) of a shape, pressed to a box around those of the reference."""
+    """The vertices (n, 3) of a shape, clamped to a box around those of the reference."""
     low, high = reference.min(axis=0), reference.max(axis=0)
     margin = OUTSIDE * float(np.linalg.norm(high - low))
     return np.clip(shape, low - margin, high + margin)

@@ -33,9 +33,9 @@ SESSION_STEP = 1e-7**0.5
 class Evaluation:
     """A way to evaluate the reduced energy.
 
-    name : of the curve
+    name : name of the curve
     elements : tets, clusters or coefficients that each evaluation visits
-    multiply_adds : of value and gradient, without the material's, which are 50 to 200 a tet
+    multiply_adds : for value and gradient, without the material's, which are 50 to 200 a tet
     model : whose frames are solved with it
     functions : value and gradient at (d,) in one or more forms, of the same values; the fastest
     counts

@@ -8,7 +8,7 @@ from typing import Any
 
 from .orderings import Rows
 
-#: What the ends of the solves leave of an exact evaluation's error.
+#: Error of an exact evaluation that the tolerance of the solves may leave.
 SOLVED = 1e-4
 
 

@@ -167,7 +167,7 @@ def _distances(model: Model, reference: ss.Snapshots, wanted: FloatArray) -> Flo
 
 
 def _steps(one: Evaluation, whole: Model, frames: int) -> float | None:
-    """Those of a frame with clusters."""
+    """Local and global steps of a frame with clusters; None for other evaluations."""
     if one.clustered is None:
         return None
     assert isinstance(whole, ss.PosingModel)

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from .orderings import Rows, by_case
 
-#: With so many samples for each dimension the error is no more than twice that with the most.
+#: With this many samples for each dimension, the error is at most twice that with the most.
 SAMPLES_PER_DIMENSION = 2.0
 #: How far a mean may be above another that the paper takes for the same.
 ALIKE = 2.0

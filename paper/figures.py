@@ -36,7 +36,7 @@ FloatArray = NDArray[np.float64]
 class Figure:
     """A figure of the paper.
 
-    number : of the figure; case : name of its problem
+    number : number of the figure; case : name of its problem
     samples, ours : samples and dimension of our subspace
     modal : dimensions of vibration modes with modal derivatives
     shares : for each shape, the weights of the poses or the shares of the box's half widths

@@ -16,7 +16,7 @@ from snapspace.fitting import fit_poses
 
 @dataclass(frozen=True)
 class FittedPoses:
-    """Poses, the first of which is the mesh itself, and the wall time of their fits in seconds."""
+    """Poses, with the mesh itself first, and the wall time of their fits in seconds."""
 
     poses: ss.Poses
     seconds: float

@@ -24,7 +24,7 @@ def leave_one_out_errors(
 
     Parameters
     ----------
-    gram : of displacements from tau
+    gram : products of displacements from tau
     training : (k,) indices of two samples or more
     dimensions : (j,) of the subspaces; where the others span less, all that they span
 

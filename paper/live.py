@@ -1,4 +1,4 @@
-"""drag: what a frame of a live session takes."""
+"""drag: the cost of a frame of a live session."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ LEG = 60
 class Live:
     """Frames of a drag.
 
-    iterations : of the minimiser in a frame, mean
+    iterations : mean number of iterations of the minimiser in a frame
     per_iteration : milliseconds, median of the frames that took any; None if none did
-    milliseconds : of a frame's solve, without computing the vertices, median
+    milliseconds : median time of a frame's solve, without computing the vertices
     """
 
     iterations: float

@@ -13,7 +13,7 @@ from snapspace.reduction import FullBlends, FullEnergy
 
 FloatArray = NDArray[np.float64]
 
-#: Up to this dimension, and from so many solves on, a St.Venant-Kirchhoff energy is made an exact
+#: Up to this dimension, and from this many solves on, a St.Venant-Kirchhoff energy is made an exact
 #: quartic: it is the same, and its coefficients take less time than they save.
 MOST_EXACT, LEAST_SOLVES = 60, 5
 

@@ -15,7 +15,7 @@ def newton_samples(
     """Solves samples from the middle of a sequence again, by Newton's method (paper, sec. 4.2).
 
     Each starts from the nearest sample of the first half, as it would in the middle of a run of
-    Newton's method: what such samples take is about the mean of a whole run.
+    Newton's method: the cost of such samples is about the mean of a whole run.
 
     Parameters
     ----------

@@ -23,7 +23,7 @@ PICTURES = Path(__file__).parents[1] / "docs" / "pictures" / "paper"
 class Result:
     """Rows of figures under one title.
 
-    name : of the file
+    name : name of the file
     title : printed above the table
     rows : mappings with the same keys
     pictures : (height, width, 3) of shapes, by the names of their files

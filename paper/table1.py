@@ -1,4 +1,4 @@
-"""Table 1: samples, coefficients and frames, what they take here and what they took in the paper.
+"""Table 1: the cost of samples, coefficients and frames, here and in the paper.
 
 Samples and dimensions are the paper's. "ours" is what Snapspace does by default. "Newton, BFGS" is
 the paper's way of solving samples (sec. 4.2) and frames (sec. 6.2), by our code and in the same
@@ -28,7 +28,7 @@ from .timing import timed
 class Row:
     """A row of the paper's table.
 
-    name : of our case
+    name : name of our case
     shape : the paper's shape, if it is another
     vertices, tets : in thousands
     samples, dimension : numbers of samples and modes
@@ -133,7 +133,7 @@ def _add_printed(result: Result, row: Row, case: Case) -> None:
 
 
 def _sampling(snapshots: ss.Snapshots, seconds: float, count: int) -> dict[str, Any]:
-    """Columns of solved samples; the seconds of the sampling are those of all."""
+    """Columns of solved samples; the seconds of the sampling are those of all samples."""
     solved = len(snapshots)
     return {
         "solved": solved,

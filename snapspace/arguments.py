@@ -93,13 +93,21 @@ def as_coordinates(who: str, q: ArrayLike, dimension: int) -> FloatArray:
     return values
 
 
-def require_dimension(who: str, dimension: int, largest: int) -> None:
-    """ValueError unless the dimension is a whole number from 1 to the largest."""
-    if not (is_whole(dimension) and 1 <= dimension <= largest):
-        raise ValueError(
-            f"{who}: dimension {shown(dimension)} is not between 1 and {largest}; give a whole "
-            "number up to that of the model"
-        )
+def require_dimension(
+    who: str,
+    dimension: int,
+    largest: int,
+    *,
+    cure: str = "give a number up to that of the model",
+) -> None:
+    """ValueError unless the dimension is a whole number from 1 to the largest.
+
+    cure : what to do about a number out of range
+    """
+    if not is_whole(dimension):
+        raise wrong_type(who, "dimension", dimension, "give a whole number")
+    if not 1 <= dimension <= largest:
+        raise ValueError(f"{who}: dimension {dimension} is not between 1 and {largest}; {cure}")
 
 
 def shown(value: object) -> str:

@@ -1,13 +1,13 @@
-"""corner_texts: corners of a box with enough digits to show its size."""
+"""corner_texts, point_text: points in so many digits that the body has a size."""
 
 from __future__ import annotations
 
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-#: Digits of coordinates that are no longer than the box.
+#: Digits of coordinates that are no larger than the body.
 _DIGITS = 4
 #: The largest number of digits of a double.
 _MOST = 16
@@ -19,8 +19,20 @@ def corner_texts(low: ArrayLike, high: ArrayLike) -> tuple[str, str]:
     With four digits, a body of length 3 at 200,000 would have the same number on both sides.
     """
     corners = np.array([low, high], np.float64)
-    diagonal, farthest = np.linalg.norm(corners[1] - corners[0]), np.abs(corners).max()
+    digits = _digits(float(np.abs(corners).max()), float(np.linalg.norm(corners[1] - corners[0])))
+    return _text(corners[0], digits), _text(corners[1], digits)
+
+
+def point_text(point: ArrayLike, diagonal: float) -> str:
+    """A point (3,) of a body with this diagonal, with as many digits as `corner_texts`."""
+    x = np.asarray(point, np.float64)
+    return _text(x, _digits(float(np.abs(x).max()), diagonal))
+
+
+def _digits(farthest: float, diagonal: float) -> int:
     more = math.ceil(math.log10(farthest / diagonal)) if 0 < diagonal < farthest else 0
-    digits = min(_DIGITS + more, _MOST)
-    first, second = ("(" + ", ".join(f"{x:.{digits}g}" for x in row) + ")" for row in corners)
-    return first, second
+    return min(_DIGITS + more, _MOST)
+
+
+def _text(point: NDArray[np.float64], digits: int) -> str:
+    return "(" + ", ".join(f"{x:.{digits}g}" for x in point) + ")"

@@ -38,7 +38,7 @@ settings.load_profile("steady")
 
 
 def pytest_collection_finish() -> None:
-    """Spares the collector of garbage what thousands of tests consist of, in every full round."""
+    """Exempts the objects of thousands of collected tests from full garbage collections."""
     gc.freeze()
 
 

@@ -171,7 +171,7 @@ def test_termination_is_raised_at_checks_as_well(termination: Termination) -> No
 
 
 def test_termination_arrives_where_ctrl_c_is_ignored(termination: Termination) -> None:
-    """As in a program that a script runs in the background."""
+    """A script starts its background programs like this."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     reached = False
     try:

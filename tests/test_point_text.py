@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from snapspace.point_text import corner_texts
+from snapspace.point_text import corner_texts, point_text
 
 
 def test_corners_have_four_digits_and_more_far_from_the_origin() -> None:
@@ -13,3 +13,5 @@ def test_corners_have_four_digits_and_more_far_from_the_origin() -> None:
 
 def test_a_point_has_four_digits() -> None:
     assert corner_texts([12345.6] * 3, [12345.6] * 3)[0] == "(1.235e+04, 1.235e+04, 1.235e+04)"
+    assert point_text([-1.23456, 0, 2], 3.0) == "(-1.235, 0, 2)"
+    assert point_text([199_998.83, 1e5, 0], 3.0) == "(199998.83, 100000, 0)"

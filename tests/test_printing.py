@@ -7,13 +7,23 @@ from dataclasses import replace
 import numpy as np
 
 from snapspace import (
+    AccurateModel,
     ErrorCurve,
+    ErrorEstimator,
     ErrorSplit,
+    Growth,
     Polished,
+    PosingModel,
+    Predictions,
     Snapshots,
     Validation,
+    mode_targets,
+    predicted_solutions,
+    sample,
     snapshot_pca,
 )
+from snapspace.accurate import Step
+from snapspace.certificate import ResidualSample
 
 
 def test_snapshots_print_their_number_and_problem(posing_snapshots: Snapshots) -> None:
@@ -48,6 +58,42 @@ def test_validations_print_their_errors(posing_snapshots: Snapshots) -> None:
         "ErrorSplit(medians of 3 samples: error 0.00912, subspace 0.002, stiffness 0.008, "
         "cubature 0.001)"
     )
+
+
+def test_a_search_prints_its_step_and_model(
+    posing_model: PosingModel, posing_snapshots: Snapshots
+) -> None:
+    model, snapshots = repr(posing_model), posing_snapshots
+    step = Step(60, 30, 0.001, 0.004, 0.005, 0.006, "motions", "median")
+    held_out = np.zeros(len(snapshots), bool)
+    found = AccurateModel(posing_model, snapshots, held_out, (step,), step, 0.003, 160)
+    assert repr(found) == f"AccurateModel({step}, misses its target of 0.3 %, {model})"
+    met = replace(found, target=0.005)
+    assert repr(met) == f"AccurateModel({step}, {model})"
+    growth = Growth(posing_model, snapshots, held_out, None, 1.2345, final=False)
+    assert repr(growth) == f"Growth(first impression, 1.23 s, {model})"
+    assert repr(replace(growth, step=step, final=True)) == f"Growth({step}, 1.23 s, final, {model})"
+
+
+def test_what_has_many_numbers_prints_its_sizes(posing_model: PosingModel) -> None:
+    problem = posing_model.problem
+    n, d = len(problem.mesh.vertices), posing_model.dimension
+    wanted = sample(problem.domain, 3)
+    handle = problem.handles["head"]
+    assert repr(handle) == f"Handle(head: {len(handle.vertices)} vertices)"
+    bare = Predictions(np.zeros((3, 3 * n)))
+    assert repr(bare) == f"Predictions(3 samples, {n} vertices)"
+    predicted = predicted_solutions(posing_model, wanted)
+    assert repr(predicted) == f"Predictions(3 samples, {n} vertices, Hessians of dimension {d})"
+    targets = mode_targets(posing_model)
+    count = len(targets.base)
+    assert repr(targets) == f"MorphTargets({d} targets, {count} vertices, 0 shapes, error 0)"
+    frames = np.ones((4, d))
+    sampled = ResidualSample(np.arange(3, dtype=np.int32), np.ones(3))
+    estimator = ErrorEstimator(1.0, sampled, frames, np.ones(4))
+    assert repr(estimator) == f"ErrorEstimator(dimension {d}, calibrated with 4 frames)"
+    both = replace(estimator, movement_ratios=np.ones(4))
+    assert repr(both).endswith("calibrated with 4 frames, also for polished ones)")
 
 
 def test_a_polished_frame_prints_how_far_it_moved(posing_snapshots: Snapshots) -> None:

@@ -32,7 +32,7 @@ NEEDED = [
     "safetensors>=0.4.3",
     "threadpoolctl>=3.1",
     "meshio>=5.3.5",
-    "rich>=13.5",  # of meshio, as are the others
+    "rich>=13.5",  # needed by meshio, as are the others
     "markdown-it-py>=3.0",
     "mdurl>=0.1",
     "pygments>=2.17",
@@ -108,7 +108,7 @@ def build(platform: str) -> Path:
 
 
 def main() -> None:
-    """Builds for the platform that is asked for."""
+    """Builds for the requested platform."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--platform", choices=PLATFORMS, default=this_platform())
     archive = build(parser.parse_args().platform)

@@ -1,7 +1,8 @@
 """Checks the Blender extension in Blender itself, which PyPI has as the module bpy.
 
 It runs tests/blender, then installs the zip file of `make blender` in an empty Blender and poses a
-bar (tools/try_extension.py). bpy 5.0 is for Python 3.11; another Python checks nothing and says so.
+bar (tools/try_extension.py). bpy 5.0 needs Python 3.11; with another Python, the script says so and
+checks nothing.
 
     python tools/check_blender.py
 """

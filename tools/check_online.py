@@ -1,6 +1,6 @@
 """Compiles core/online alone: without Eigen, Python or exceptions, and every header by itself.
 
-Other builds, such as WebAssembly, take this package only. Prints the compiler's messages; the exit
+Other builds, such as WebAssembly, use only this package. Prints the compiler's messages; the exit
 code is 1 if a file does not compile.
 """
 

@@ -13,7 +13,7 @@ ROOT = Path(__file__).parent.parent
 
 
 def main() -> None:
-    """Exits with code 1, and prints mypy's output, if a block does not follow from those before."""
+    """Exits with code 1, and prints mypy's output, if a block fails after those before it."""
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     with tempfile.TemporaryDirectory() as folder:

@@ -16,7 +16,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
 LEVELS = ROOT / "tests" / "snapshots" / "test_levels.py"
-#: Compilers contract other products for each level, so each is tested.
+#: Compilers fuse different products at each level, so every level is tested.
 WIDTHS = Path("tests") / "snapshots" / "test_pack_widths.py"
 X86_LEVELS = ("_core_baseline", "_core_v3", "_core_v4")
 DEMO = ["snapspace", "demo", "--output", "demo", "--tets", "5000", "--samples", "24"]

@@ -41,7 +41,7 @@ class Struct:
 
     @property
     def alignment(self) -> int:
-        """In bytes: 8 if there is a double, else 4."""
+        """The alignment in bytes: 8 if there is a double, else 4."""
         return 8 if any(field.type == "double" for field in self.fields) else 4
 
 
@@ -56,7 +56,7 @@ def functions() -> tuple[Function, ...]:
 
 
 def enums() -> dict[str, dict[str, int]]:
-    """For each enum, by its name without prefix, its values by name."""
+    """The values of all enums by name; the keys are the enums' names without prefix."""
     found = re.findall(rf"\benum {PREFIX}(\w+) \{{([^}}]*)\}};", _code())
     return {
         name: {

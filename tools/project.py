@@ -9,7 +9,7 @@ ROOT = Path(__file__).parent.parent
 
 
 def version() -> str:
-    """That of the Python package, which all other packages share."""
+    """The version of the Python package, which all other packages share."""
     text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     found = re.search(r'^version = "([^"]+)"', text, re.MULTILINE)
     assert found is not None, "pyproject.toml has no version"

@@ -2,7 +2,7 @@ import { readdirSync, readFileSync } from "node:fs";
 
 import type { Plugin } from "vite";
 
-/** Puts the licences of the packages that a script contains before it, as they ask for. */
+/** Puts the licences of the packages that a script contains at its beginning, as they require. */
 export function notices(): Plugin {
   return {
     name: "notices",

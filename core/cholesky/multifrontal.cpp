@@ -48,7 +48,7 @@ struct Front {
 bool multifrontal_cholesky(const Eigen::SparseMatrix<double>& A, const Supernodes& supernodes,
                            const PanelSink& sink) {
   const std::vector<std::int32_t> columns = supernodes.places();
-  std::vector<std::int32_t> place(columns.size());  // of each row in the current front
+  std::vector<std::int32_t> place(columns.size());  // place of each row in the current front
   // Updates of the supernodes whose parent is still to come; the children of the next one are last.
   std::vector<std::pair<std::int32_t, Matrix>> waiting;
   std::vector<std::int32_t> places;

@@ -43,7 +43,7 @@ class Point {
 };
 
 /// Packs are narrow when few samples are left. Here x and y share a pack of twice the width, and z
-/// has its own. Lanes never mix, so the bits are those of three packs.
+/// has its own. Lanes never mix, so results are bitwise those of three packs.
 template <class T, int Width>
 class Point<Pack<T, Width>, true> {
  public:

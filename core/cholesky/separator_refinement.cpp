@@ -8,9 +8,9 @@ namespace snapspace {
 
 namespace {
 
-/// The side to which a pass moves vertices. A separator that moves to one side only gets over hills
-/// that it cannot climb while vertices move both ways. That saves a tenth of the factor's entries
-/// in solid bodies.
+/// The side to which a pass moves vertices. A separator that moves to one side only can leave local
+/// minima that hold it while vertices move both ways. This saves a tenth of the factor's entries in
+/// solid bodies.
 enum class MoveSide : std::int8_t { left, right, either };
 
 class Refinement {
@@ -150,8 +150,8 @@ class Refinement {
   const WeightedGraph& graph_;
   std::vector<Side>& sides_;
   std::vector<std::int32_t> moved_;     // the last pass that moved a vertex
-  std::vector<std::int32_t> members_;   // of the separator, and some that have left it
-  std::vector<std::int32_t> gains_[2];  // of moving a vertex of the separator to a side
+  std::vector<std::int32_t> members_;   // vertices of the separator, and some that have left it
+  std::vector<std::int32_t> gains_[2];  // gain from moving a vertex of the separator to a side
   std::priority_queue<std::pair<std::int32_t, std::int32_t>> queues_[2];  // former gains as well
   std::vector<Move> moves_;
   std::vector<std::int32_t> pulled_;

@@ -13,8 +13,8 @@ namespace snapspace {
 /// dense panel. Columns and rows are numbered in elimination order.
 struct Supernodes {
   std::vector<std::int32_t> order;            ///< vertex of every column
-  std::vector<std::int32_t> first_column{0};  ///< of each supernode; count() + 1 entries
-  std::vector<std::int64_t> first_row{0};     ///< of each supernode in `rows`; count() + 1 entries
+  std::vector<std::int32_t> first_column{0};  ///< for each supernode; count() + 1 entries
+  std::vector<std::int64_t> first_row{0};     ///< for each supernode in `rows`; count() + 1 entries
   std::vector<std::int32_t> rows;             ///< below the supernode's own columns, ascending
   std::vector<std::int32_t> parent;           ///< the supernode of the first row; -1 for a root
 

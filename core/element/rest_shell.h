@@ -8,12 +8,12 @@
 /// edge, and v2, v3 of the triangles v0 v1 v2 and v1 v0 v3 beside it.
 ///
 /// Their `inverse_edges` map the displacements of edges from the first corner to a 3 x 3 matrix G,
-/// as those of a tet do to its displacement gradient. G has the displacement gradient (3 x 2) of a
-/// triangle in its first two columns; of a hinge it has the displacements of the three edges, in
-/// units of the rest edge. The `volume` is the area of a triangle. Of a hinge it is a third of the
-/// area of both triangles over the mean square of its angle on cylinders of radius one that touch
-/// it in all directions: then hinges of any shape have the energy of a plate on average, and those
-/// of equilateral triangles the usual |edge|^2 / (sum of both areas).
+/// as those of a tet map them to its displacement gradient. For a triangle, the first two columns
+/// of G are its displacement gradient (3 x 2); for a hinge, G has the displacements of the three
+/// edges in units of the rest edge. The `volume` of a triangle is its area. That of a hinge is a
+/// third of the area of both triangles over the mean square of its angle on cylinders of radius one
+/// that touch it in all directions. Then hinges of any shape have the energy of a plate on average,
+/// and those of equilateral triangles have the usual |edge|^2 / (sum of both areas).
 namespace snapspace {
 
 [[nodiscard]] inline bool is_triangle(const std::int32_t corners[4]) {
@@ -63,7 +63,7 @@ class RestShellElement {
 
   /// Writes the numbers of the rest shape that follow the moduli of a ShellDensity, except those of
   /// the rest angle.
-  /// @param product  of a hinge: the area_product() at which bending has its whole stiffness
+  /// @param product  for a hinge, the area_product() at which bending has its full stiffness
   void write_numbers(double* numbers, double product) const {
     for (int r = 0; r < 3; ++r) {
       if (is_triangle(corners_)) {
@@ -123,7 +123,7 @@ class RestShellElement {
 
   const std::int32_t* corners_;
   double edges_[3][3];  // edge by edge
-  double normal_[3];    // of the first triangle, as long as twice its area
+  double normal_[3];    // normal of the first triangle, as long as twice its area
   double length_, twice_area_;
 };
 

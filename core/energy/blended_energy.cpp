@@ -64,7 +64,8 @@ BlendedEnergy::BlendedEnergy(const double* poses, int count, int vertex_count,
   });
 }
 
-/// F A_k = F + F G with the displacement gradient G of pose 0 against pose k, so that A_k = I + G.
+/// F A_k = F + F G with the displacement gradient G of pose 0 relative to pose k, so that A_k = I +
+/// G.
 void BlendedEnergy::fill_numbers(int t, int k, double* result) const {
   const RestTet& tet = energies_[k].rest.tets[t];
   const TetMaterial material = energies_[k].material.view();
@@ -132,7 +133,8 @@ Sum<Real> BlendedEnergy::tet_value_and_stress(int tet, const Real* blend, const 
 }
 
 /// Energy of some vertices and of the stars centered there; adds its gradient to `gradient`. A
-/// single sample is a lane of a narrow pack: it has the same bits in lanes and alone.
+/// single sample is a lane of a narrow pack, so its result is bitwise the same alone and beside
+/// other samples.
 template <class Real>
 Sum<Real> BlendedEnergy::add_stars(const Real* blend, const Real* u, Real* gradient, int begin,
                                    int end) const {

@@ -11,17 +11,17 @@ namespace snapspace {
 
 /// Sum of weights_k * E_k, with pose k of one mesh as the rest shape of E_k (paper, sec. 3.3), as a
 /// function of displacements u from pose 0.
-/// All poses have the same tets, and a tet's energy against pose k is that of F A_k, see PoseBlend.
-/// So a pose needs neither its own vertices nor its own F.
-/// Surfaces that are as rigid as possible have the stars of their vertices in place of tets, and
-/// every pose has its own.
-/// Samples differ in their weights. Evaluations need them in a form that is made once per sample:
-/// the weights themselves or, where the density collapses, the numbers of all tets.
+/// All poses have the same tets. The energy of a tet relative to pose k is that of F A_k, see
+/// PoseBlend, so a pose needs neither its own vertices nor its own F.
+/// As-rigid-as-possible surfaces have the stars of their vertices instead of tets, and every pose
+/// has its own stars.
+/// Samples differ in their weights. Evaluations read the weights in a form that is made once per
+/// sample: the weights themselves or, if the density collapses, the numbers of all tets.
 class BlendedEnergy {
  public:
   /// @param poses  count x n x 3, row-major   @param tets  m x 4, none without volume in any pose;
-  ///               of a shell its triangles and hinges
-  /// @param material  of a shell only its moduli are read, see shell_pose_materials
+  ///               for a shell, its triangles and hinges
+  /// @param material  for a shell, only its moduli are read, see shell_pose_materials
   BlendedEnergy(const double* poses, int count, int vertex_count, const std::int32_t* tets,
                 int tet_count, const MaterialField& material);
 
@@ -48,20 +48,20 @@ class BlendedEnergy {
   [[nodiscard]] Sum<Real> value_and_gradient(const Real* blend, const Real* u, Real* gradient,
                                              int begin, int end) const;
 
-  /// First Piola-Kirchhoff stresses of some tets against pose 0 times its volume (c x 9, row by
-  /// row) and their energies (c), at u for these weights; not of stars.
+  /// First Piola-Kirchhoff stresses of some tets relative to pose 0, times their volumes there (c x
+  /// 9, row by row), and their energies (c), at u for these weights; not for stars.
   void tet_stresses(const std::vector<std::int32_t>& which, const double* weights, const double* u,
                     double* stresses, double* energies) const;
 
   /// Whether there are Hessians of single tets.
   [[nodiscard]] bool has_tet_hessians() const;
-  /// The Hessian (9 x 9) of a tet's energy by its displacement gradient against pose 0, at u for
-  /// these weights; only if has_tet_hessians().
+  /// The Hessian (9 x 9) of a tet's energy with respect to its displacement gradient relative to
+  /// pose 0, at u for these weights; only if has_tet_hessians().
   void tet_hessian(int tet, const double* weights, const double* u, double H[9][9]) const;
 
  private:
-  /// Up to this many poses the numbers of a tet are summed in every evaluation: samples in one pack
-  /// share the numbers of the poses, whereas each would have to read its own sums.
+  /// Up to this many poses, the numbers of a tet are summed in every evaluation: the samples of a
+  /// pack share the numbers of the poses, whereas each would have to read its own sums.
   static constexpr int kFewPoses = 8;
 
   [[nodiscard]] int kind() const { return energies_[0].material.view().kind; }

@@ -17,8 +17,8 @@ PrincipalCurvature curvature_of(const TetMaterial& material, int tet, const doub
   return projected(material.curvature(tet, s), projection);
 }
 
-/// Adds the second derivative of psi by the displacements of vertices j and k: dF = u (x) b, with u
-/// in the frame of U and the gradients b of the hat functions in the frame of V.
+/// Adds the second derivative of psi with respect to the displacements of vertices j and k: dF = u
+/// (x) b, with u in the frame of U and the gradients b of the hat functions in the frame of V.
 void add_block(const PrincipalCurvature& H, const double (&U)[3][3], const double* b_j,
                const double* b_k, double weight, double* block) {
   double local[3][3], half[3][3];
@@ -136,8 +136,8 @@ void BlockHessian::add_shell_element(const ElasticEnergy& energy, int t, const d
     }
 }
 
-/// The Laplacian of the triangles, and of each star what its density adds to the square of its
-/// gradient.
+/// Adds the Laplacian of the triangles and, for each star, the Hessian of its density less that of
+/// |G|^2, which the Laplacian contains.
 void BlockHessian::add_stars(const ElasticEnergy& energy, const double* u, Projection projection,
                              double weight) {
   const VertexStars& stars = *energy.stars;

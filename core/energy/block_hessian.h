@@ -20,7 +20,7 @@ class BlockHessian {
   void clear();
 
   /// Adds weight * the Hessian of the elastic energy at displacements u, projected tet by tet.
-  /// @param threshold  least singular value for Projection::stretches
+  /// @param threshold  smallest singular value for Projection::stretches
   void add(const ElasticEnergy& energy, const double* u, Projection projection,
            double threshold = 0.0, double weight = 1.0);
 

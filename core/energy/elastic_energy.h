@@ -18,10 +18,10 @@
 namespace snapspace {
 
 /// Elastic energy of a mesh: the sum over tets of volume * density, as a function of displacements
-/// u (3n, x0 y0 z0 x1 ...) from the rest shape. Of a shell the tets are triangles and hinges. Real
-/// is double, or a pack with one sample per lane. Templates over densities end at this class: its
-/// sums are compiled for every density and pack, and one is chosen for every few dozen tets.
-/// Solvers and other callers know no density.
+/// u (3n, x0 y0 z0 x1 ...) from the rest shape. For a shell, the tets are triangles and hinges.
+/// Real is double, or a pack with one sample per lane. Templates over densities end at this class:
+/// its sums are compiled for every density and pack, and one is chosen for every few dozen tets.
+/// Solvers and other callers do not depend on the density.
 class ElasticEnergy {
  public:
   /// @throws std::invalid_argument  if the material has moduli for a different number of tets
@@ -29,7 +29,7 @@ class ElasticEnergy {
 
   RestShape rest;
   MaterialField material;
-  /// For a surface that is as rigid as possible: its elements, in place of the triangles.
+  /// The elements of an as-rigid-as-possible surface, instead of the triangles.
   std::optional<VertexStars> stars;
 
   [[nodiscard]] int elements() const { return stars ? stars->count() : tets(); }
@@ -61,8 +61,8 @@ class ElasticEnergy {
     SweepVisitor idle;
     return value_and_gradient(u, gradient, idle);
   }
-  /// The same for a single sample, in a lane of a narrow pack: it has the same bits in lanes and
-  /// alone.
+  /// The same for a single sample, in a lane of a narrow pack, so that the result is bitwise the
+  /// same alone and beside other samples.
   double value_and_gradient(const double* u, double* gradient, SweepVisitor& visitor) const;
 
   /// Hessian at rest times v, which is linear elasticity; `product` (3n) is overwritten.
@@ -73,7 +73,7 @@ class ElasticEnergy {
   void hessian_product(const double* u, const double* v, double* product) const;
 
   /// Volume times first Piola-Kirchhoff stress (elements x 9, row by row) and energies (elements)
-  /// at u. Of stars they are those of the density ShellArap.
+  /// at u. For stars, they are those of the density ShellArap.
   void tet_stresses(const double* u, double* stresses, double* energies) const;
   /// The same for some elements, in their order.
   void tet_stresses(const std::vector<std::int32_t>& which, const double* u, double* stresses,
@@ -82,9 +82,9 @@ class ElasticEnergy {
   /// 2 mu + lam of each tet: the largest stiffness of its small strains.
   [[nodiscard]] std::vector<double> stiffnesses() const;
 
-  /// What the scalar matrix knows of a tet: the gradients of its hat functions, one per row. Of a
-  /// hinge it is the change of the angle in the plane by the heights of its corners, in the first
-  /// column.
+  /// What a tet contributes to the scalar matrix: the gradients of its hat functions, one per row.
+  /// For a hinge, the first column has the derivatives of the flat hinge's angle with respect to
+  /// the heights of its corners.
   [[nodiscard]] Eigen::Matrix<double, 4, 3> scalar_gradients(int tet) const;
 
   /// The numbers of an element's rest shape, see ShellDensity; for shells only.
@@ -92,19 +92,21 @@ class ElasticEnergy {
     return material.view().of(element) + scaled_moduli(material.view().kind);
   }
 
-  /// The matrix, n x n, that stands for the Hessian of x, y and z: the sum over tets of stiffness *
-  /// volume * the products of scalar gradients. Of a solid it is the Laplacian (the cotangent
-  /// Laplacian of tets); of a shell that of its triangles, and the isometric bending of its hinges
-  /// [Bergou, Wardetzky, Harmon, Zorin, Grinspun 2006]. Positive semi-definite.
+  /// The n x n matrix that stands for the Hessian in each of x, y and z: the sum over tets of
+  /// stiffness * volume * the products of scalar gradients. For a solid, it is the Laplacian (the
+  /// cotangent Laplacian of tets); for a shell, the Laplacian of its triangles plus the isometric
+  /// bending of its hinges [Bergou, Wardetzky, Harmon, Zorin, Grinspun 2006]. Positive
+  /// semi-definite.
   [[nodiscard]] Eigen::SparseMatrix<double> scalar_matrix() const;
 
   /// Energy of a strain of kNegligibleStrain everywhere. Smaller decreases count as zero: where the
   /// minimum of an objective is zero, a tolerance relative to it can never be met.
   [[nodiscard]] double negligible() const { return negligible_; }
 
-  /// A power of two near the largest force of an element at a strain of one. In single precision
-  /// forces are computed in this unit: in units of length that are far from the body's size, volume
-  /// times modulus leaves its range where forces do not. No digit changes.
+  /// A power of two near the largest force of an element at a strain of one. In single precision,
+  /// forces are computed in this unit: if the unit of length is far from the body's size, volume
+  /// times modulus leaves the range of floats where forces do not. A power of two changes no
+  /// digits.
   [[nodiscard]] double force_unit() const { return force_unit_; }
 
   /// Number of elements with det F <= 0; none in a shell, which has no inside.
@@ -120,7 +122,7 @@ class ElasticEnergy {
   template <class Real>
   void add_shell_rest_product(const Real* v, Real* product) const;
 
-  StreamedVector<double> moduli_;        // of each tet, times its volume
+  StreamedVector<double> moduli_;        // moduli of each tet times its volume
   StreamedVector<float> single_moduli_;  // the same in single precision
   double force_unit_;
   StreamedVector<double> lame_;  // lam and mu of small strains, times volume, by the force unit

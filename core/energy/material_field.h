@@ -16,7 +16,7 @@ class MaterialField {
  public:
   /// @param moduli  rows x material_moduli(kind)
   /// @throws std::invalid_argument  if no density has this name, or the sizes do not fit
-  /// @param hats  of the stars of a surface that is as rigid as possible
+  /// @param hats  of the stars of an as-rigid-as-possible surface
   MaterialField(const char* name, std::vector<double> moduli, int rows, StarHats hats = {})
       : kind_(material_index(name)),
         rows_(rows),

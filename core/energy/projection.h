@@ -12,9 +12,9 @@ enum class Projection : int {
   absolute = 3,   ///< negative eigenvalues change sign [Chen et al. 2024]
 };
 
-/// The curvature, with the negative ones of its nine eigenvalues set to zero by `clamp` and made
-/// positive by `absolute`; no other projection changes it. With `clamp` it is the nearest
-/// semi-definite one, since the frame is orthonormal.
+/// The curvature with its negative eigenvalues, of nine, set to zero by `clamp` or made positive by
+/// `absolute`; other projections do not change it. With `clamp` it is the nearest semi-definite
+/// one, since the frame is orthonormal.
 [[nodiscard]] PrincipalCurvature projected(PrincipalCurvature curvature, Projection projection);
 
 /// Projects the Hessian of an element of a shell, which has no principal axes. `stretches` counts

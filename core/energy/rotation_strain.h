@@ -4,8 +4,8 @@
 namespace snapspace {
 
 /// D = exp(W) (I + E) - I for a displacement gradient G = W + E, with W skew and E symmetric. W is
-/// taken for the logarithm of a rotation instead of its linear part (rotation-strain coordinates,
-/// Huang, Tong, Zhou, Bao, Desbrun 2011). D = G + O(G^2).
+/// interpreted as the logarithm of a rotation instead of its linear part (rotation-strain
+/// coordinates, Huang, Tong, Zhou, Bao, Desbrun 2011). D = G + O(G^2).
 template <class Real>
 inline void rotation_strain(const Real G[3][3], Real D[3][3]) {
   using T = typename ScalarOf<Real>::type;

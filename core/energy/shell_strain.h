@@ -6,7 +6,7 @@
 #include "energy/rotation_strain.h"
 #include "material/hinge.h"
 
-/// Rotations and strains of a shell's elements, as rotation_strain has them for tets.
+/// Rotations and strains of a shell's elements, as rotation_strain computes them for tets.
 namespace snapspace {
 
 /// The displacement gradient D of a triangle that turns by W and stretches by E, for the skew and
@@ -24,7 +24,8 @@ inline void triangle_rotation_strain(const double* frame, const Real G[3][3], Re
   }
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) in_space[r][c] = G[r][0] * t[c][0] + G[r][1] * t[c][1];
-  // The gradient along the normal is unknown. It is that of the rotation which moves the tangents.
+  // The gradient along the normal is unknown; that of the rotation which moves the tangents is
+  // used.
   for (int c = 0; c < 3; ++c)
     along[c] = n[0] * in_space[0][c] + n[1] * in_space[1][c] + n[2] * in_space[2][c];
   for (int r = 0; r < 3; ++r)
@@ -37,7 +38,7 @@ inline void triangle_rotation_strain(const double* frame, const Real G[3][3], Re
   }
 }
 
-/// A hinge as the scalar matrix sees it: the vector sum_j row_j edge_j, whose normal part is the
+/// A hinge in the scalar matrix: the vector sum_j row_j edge_j, whose normal part is the
 /// change of the angle in the plane (isometric bending, Bergou, Wardetzky, Harmon, Zorin, Grinspun
 /// 2006).
 class HingeVector {
@@ -67,8 +68,8 @@ class HingeVector {
                   Real(static_cast<T>(row[2])) * G[r][2];
   }
 
-  /// The same for a hinge that turns by the rotation nearest to small displacements G, and bends by
-  /// what they bend it.
+  /// The same for a hinge that turns by the rotation nearest to small displacements G, and bends as
+  /// much as G bends it.
   template <class Real>
   void turned(const Real G[3][3], Real vector[3]) const {
     using T = typename ScalarOf<Real>::type;

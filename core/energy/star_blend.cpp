@@ -177,7 +177,7 @@ class StarBlend::StarSum {
       for (int e = 0; e < 9; ++e) stress[e] = *in_memory++;
       const double* next = shares(pose, begin, count);
       for (int j = 0; j < count; ++j, next += kPerCorner) {
-        // in registers: for all that the compiler knows, the tile may overlap the shares
+        // in registers: as far as the compiler knows, the tile may overlap the shares
         const Real share[3] = {Real(next[0]), Real(next[1]), Real(next[2])};
         for (int r = 0; r < 3; ++r) {
           Real force = tile_[j][r];
@@ -230,7 +230,7 @@ Real StarBlend::add_vertices(const Real* weights, const std::vector<int>& used, 
 
 namespace {
 
-/// Turns two stars at once: the latency of one's divisions hides behind the other's.
+/// Turns two stars at once, so that the divisions of one hide the latency of those of the other.
 template <class T, int Width>
 void turn_both(const Pack<T, Width> first[3][3], const Pack<T, Width> second[3][3],
                Pack<T, Width> first_turn[3][3], Pack<T, Width> second_turn[3][3]) {

@@ -8,18 +8,19 @@
 
 namespace snapspace {
 
-/// The weighted sum of the energies of several poses of one surface that is as rigid as possible.
+/// The weighted sum of the energies of several poses of one as-rigid-as-possible surface.
 ///
-/// With W = R - I and the affine map F of a star, L at rest, its energy is weight_t |G_t|^2 summed
-/// over its triangles, and its weight times |W L|^2 - 2 (W L) . (F - L). The first parts of all
-/// stars are the Dirichlet energy, so that triangles are not visited. All numbers of a vertex lie
-/// together, and so do those of a star; they depend on the displacements from pose 0 only through
-/// the edges from the vertex, or from the center. That takes three fifths of the time of single
-/// energies, and loses digits where displacements are large. All poses have the same stars.
+/// With W = R - I and the affine map F of a star, L at rest, its energy is the sum of weight_t
+/// |G_t|^2 over its triangles, plus its weight times |W L|^2 - 2 (W L) . (F - L). The first parts
+/// of all stars add up to the Dirichlet energy, so triangles are not visited. All numbers of a
+/// vertex are stored together, and so are those of a star. Displacements from pose 0 enter only
+/// through the edges from the vertex, or from the center. This takes three fifths of the time of
+/// evaluating the energies one by one, but loses digits where displacements are large. All poses
+/// have the same stars.
 class StarBlend {
  public:
   /// @param poses  the stars of each pose, of the same triangles and hats
-  /// @param offsets  of each pose: pose 0 minus it, 3n
+  /// @param offsets  for each pose, pose 0 minus that pose (3n)
   StarBlend(const std::vector<const VertexStars*>& poses,
             const std::vector<std::vector<double>>& offsets);
 
@@ -78,7 +79,7 @@ class StarBlend {
   std::size_t poses_;
   std::vector<std::int32_t> first_corner_, corners_;        // as those of VertexStars
   std::vector<std::int32_t> first_neighbour_, neighbours_;  // the same
-  std::vector<std::int32_t> centers_;                       // of the stars, ascending
+  std::vector<std::int32_t> centers_;                       // centers of the stars, ascending
   StreamedVector<double> vertex_numbers_, star_numbers_;    // one by one
 };
 

@@ -193,7 +193,7 @@ void VertexStars::make_star(int star) {
     M += share * frame_of(triangle) * frame_of(triangle).transpose();
   });
   const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(M).eigenvectors();
-  // summed anew, since the least eigenvalue of a nearly flat star is a small difference in M
+  // summed again, since the smallest eigenvalue of a nearly flat star is a small difference in M
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
   each([&](const auto& triangle, double share) {
     squares += share * (axes.transpose() * frame_of(triangle)).rowwise().squaredNorm();

@@ -13,20 +13,20 @@
 
 namespace snapspace {
 
-/// The energy of a surface that is as rigid as possible, spokes and rims [Sorkine, Alexa 2007;
+/// The as-rigid-as-possible (ARAP) energy of a surface, spokes and rims [Sorkine, Alexa 2007;
 /// Chao, Pinkall, Sanan, Schroeder 2010]:
 ///   E = sum over stars i, sum over triangles t of i, of weight_it |F_t - R_i T_t|^2,
-/// with the deformation gradient F_t (3 x 2) in the tangent frame T_t, a third of the triangle's
-/// area times its modulus times the sum of the star's hats at its corners as the weight, and the
-/// rotation R_i nearest to the sum of weight_it F_t T_t^T. Hats sum to one at every vertex. With
-/// one ring around every vertex as the stars, it has cotangent weights written with edges. With
-/// larger ones it is like the rotation clusters of Jacobson, Baran, Kavan, Popovic, Sorkine 2012,
-/// which overlap here.
+/// with the deformation gradient F_t (3 x 2) in the tangent frame T_t. The weight is a third of the
+/// triangle's area times its modulus times the sum of the star's hats at its corners, and R_i is
+/// the rotation nearest to the sum of weight_it F_t T_t^T. Hats sum to one at every vertex. If the
+/// stars are the one-rings of all vertices, this is the usual energy of edges with cotangent
+/// weights. Larger stars are like the rotation clusters of Jacobson, Baran, Kavan, Popovic, Sorkine
+/// 2012, but overlap.
 ///
 /// With M_i = L_i L_i^T the mean of T_t T_t^T, the rotation depends only on the nine numbers H_i =
-/// mean of (F_t - T_t) T_t^T, times L_i^-T. E is a quadratic form of the displacements, how much
-/// the triangles of a star differ from its best affine map, plus the sum of all stars of their
-/// weight times the density ShellArap at H_i. Neither part is negative.
+/// mean of (F_t - T_t) T_t^T, times L_i^-T. E is a quadratic form of the displacements, which
+/// measures how much the triangles of each star differ from its best affine map, plus the sum over
+/// all stars of their weight times the density ShellArap at H_i. Neither part is negative.
 class VertexStars {
  public:
   /// @param material  of the triangles: rows of ShellArap
@@ -34,7 +34,7 @@ class VertexStars {
 
   [[nodiscard]] int count() const { return static_cast<int>(weights.size()); }
 
-  std::vector<SweepStop> stops;  ///< of a pass over the stars; `tets` are stars
+  std::vector<SweepStop> stops;  ///< stops of a pass over the stars; `tets` are stars
 
   /// Corners of star i, first its center: first_corner[i] to before first_corner[i + 1]. H_i is the
   /// sum of u_j (x) gradient_j. Centers ascend.
@@ -42,10 +42,10 @@ class VertexStars {
   std::vector<double> gradients;  ///< three per corner
   std::vector<double> frames;     ///< L, row by row, nine per star
   std::vector<double> weights;    ///< sums of the triangles' weights
-  std::vector<double> areas;      ///< the same of areas in place of areas times moduli
+  std::vector<double> areas;      ///< the same with areas instead of areas times moduli
   /// Neighbours of vertex i: first_neighbour[i] to before first_neighbour[i + 1]. The Dirichlet
-  /// energy, the sum of weight_it |F_t - T_t|^2 over all stars and their triangles, is that of u_i
-  /// . (u_j - u_i) times the coupling over all pairs.
+  /// energy, the sum of weight_it |F_t - T_t|^2 over all stars and their triangles, is the sum over
+  /// all pairs of u_i . (u_j - u_i) times the coupling.
   std::vector<std::int32_t> first_neighbour, neighbours;
   std::vector<double> couplings;
 

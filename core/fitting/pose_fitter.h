@@ -20,9 +20,9 @@ enum class FitStatus : int {
 
 struct FitOptions {
   double deviation = 0.0;        ///< goal: root mean square distance of surface and target
-  double first_stiffness = 0.0;  ///< of the surface; see PoseFitter
+  double first_stiffness = 0.0;  ///< stiffness of the surface at first; see PoseFitter
   double stretch = 0.0;          ///< bound for every tet; see BoundedStretch
-  int max_iterations = 300;      ///< most Newton steps of all stages together
+  int max_iterations = 300;      ///< maximum of Newton steps in all stages
 };
 
 struct FitReport {
@@ -31,7 +31,7 @@ struct FitReport {
   int iterations = 0;
   int evaluations = 0;
   int linear_iterations = 0;
-  double stiffness = 0.0;  ///< of the last stage
+  double stiffness = 0.0;  ///< stiffness in the last stage
   double deviation = 0.0;  ///< at the returned shape
   double seconds = 0.0;
 };
@@ -72,7 +72,7 @@ class PoseFitter {
   ConjugateGradients conjugate_gradients_;
   const double* targets_ = nullptr;
   FitReport report_;
-  Supernodes supernodes_;  // of the scalar matrix, the same in every step
+  Supernodes supernodes_;  // for the scalar matrix, the same in every step
   double value_ = 0.0;
   double decrement_ = 0.0;  // -g.d of the last direction d
   bool done_ = false;

@@ -5,7 +5,7 @@
 #include "energy/elastic_energy.h"
 #include "multigrid/two_grid_cycle.h"
 
-/// Functions that work on one sample per lane, for callers with plain arrays that know no packs.
+/// Functions that work on one sample per lane, for callers that have plain arrays and no packs.
 namespace snapspace {
 
 /// One sample alone, or as many as the widest pack has lanes, in double or single precision.

@@ -26,7 +26,8 @@ class ReducedFunction {
 class TetFunction : public ReducedFunction {
  public:
   [[nodiscard]] virtual int tets() const = 0;
-  /// Hessians of the tets' energies at q (d) by their displacement gradients, tets x 9 x 9.
+  /// Hessians of the tets' energies at q (d) with respect to their displacement gradients, tets x 9
+  /// x 9.
   virtual void curvatures(const double* q, float* hessians) = 0;
   /// Stresses of the tets at q (d), tets x 9.
   virtual void stresses(const double* q, float* stresses) = 0;

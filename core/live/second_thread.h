@@ -25,7 +25,7 @@ class SecondThread final : public online::HalfRunner {
 
   std::atomic_flag busy_;        // whether a caller uses it
   bool started_ = false;         // whether a thread was requested; read by the caller only
-  int ticket_ = 0;               // of the last offer; read by the caller only
+  int ticket_ = 0;               // ticket of the last offer; read by the caller only
   std::atomic<int> offered_{0};  // the ticket of a half that no thread has taken, or 0
   std::atomic<int> ended_{0};    // the last ticket that the thread has served
   Work work_ = nullptr;

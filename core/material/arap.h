@@ -7,7 +7,7 @@
 
 namespace snapspace {
 
-/// As rigid as possible: psi = mu |F - R|^2, with the rotation R nearest to F [Chao, Pinkall,
+/// As-rigid-as-possible: psi = mu |F - R|^2, with the rotation R nearest to F [Chao, Pinkall,
 /// Sanan, Schroeder 2010].
 struct Arap {
   static constexpr const char* kName = "arap";
@@ -30,8 +30,8 @@ struct Arap {
     PrincipalCurvature result = {};
     for (int i = 0; i < 3; ++i) {
       result.scaling[i][i] = result.flip[i] = twice;
-      // The rotation jumps where two singular values cancel; the curvature is kept finite near
-      // there.
+      // The rotation jumps where two singular values cancel; near there the curvature is kept
+      // finite.
       const double sum = std::max(s[kPairs[i][0]] + s[kPairs[i][1]], kMinSum);
       result.twist[i] = twice - 2.0 * twice / sum;
     }

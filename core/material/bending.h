@@ -1,10 +1,10 @@
 #pragma once
 #include "simd/functions.h"
 
-/// Measures of how far a hinge is bent: functions f of its angle theta, of which the strain is
-/// f(theta) - f(rest angle). A measure takes t = tan(theta / 2) and gives f and its derivatives by
-/// theta. All grow without bound as a hinge folds onto itself: no fold collapses, and none passes
-/// through itself.
+/// Measures of how far a hinge is bent: functions f of its angle theta. The strain is f(theta) -
+/// f(rest angle). A measure takes t = tan(theta / 2) and returns f and its derivatives with respect
+/// to theta. All measures grow without bound as a hinge folds onto itself: no fold collapses or
+/// passes through itself.
 namespace snapspace {
 
 template <class Real>
@@ -21,8 +21,8 @@ struct TangentBend {
   }
 };
 
-/// f = theta [Grinspun, Hirani, Desbrun, Schroeder 2003], and a hundredth of the difference between
-/// the other measure and this one: 0.3 % more at a right angle, 12 % at 170 degrees.
+/// f = theta [Grinspun, Hirani, Desbrun, Schroeder 2003] plus a hundredth of the difference between
+/// the other measure and theta: 0.3 % more at a right angle, 7 % at 170 degrees.
 struct AngleBend {
   template <class Real>
   static Bend<Real> of(Real t) {

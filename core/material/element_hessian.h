@@ -3,7 +3,7 @@
 
 namespace snapspace {
 
-/// The Hessian (9 x 9) of an element's density by the entries of its displacement gradient, for any
+/// The Hessian (9 x 9) of an element's density with respect to its displacement gradient, for any
 /// density.
 inline void element_hessian(const TetMaterial& material, int element, const double G[3][3],
                             double H[9][9]) {
@@ -22,7 +22,7 @@ inline void element_hessian(const TetMaterial& material, int element, const doub
   });
 }
 
-/// That Hessian times dF, without forming it for tets.
+/// Multiplies that Hessian by dF; for tets it is not formed.
 inline void hessian_times(const TetMaterial& material, int element, const double G[3][3],
                           const double dF[3][3], double dP[3][3]) {
   if (!is_of_shells(material.kind)) {

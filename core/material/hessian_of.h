@@ -2,8 +2,8 @@
 
 namespace snapspace {
 
-/// The columns of a Hessian (9 x 9) by the entries of G, from (dG, dP) -> sets the change of the
-/// stress.
+/// The columns of a Hessian (9 x 9) with respect to the entries of G, from (dG, dP) -> sets the
+/// change of the stress.
 template <class Differential>
 inline void hessian_of(const Differential& differential, double H[9][9]) {
   for (int e = 0; e < 9; ++e) {

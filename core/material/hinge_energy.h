@@ -4,10 +4,10 @@
 
 namespace snapspace {
 
-/// The energy of a hinge by its strain s, see bending.h: a quadratic polynomial, times a weight
-/// that lets it vanish where a triangle collapses,
+/// The energy of a hinge as a function of its strain s, see bending.h: a quadratic polynomial times
+/// a weight that vanishes where a triangle collapses,
 ///   (stiffness s^2 - 2 moment s + rest) / (2 cosh(rho)^2), with rho of HingeAreas.
-/// A hinge with one rest angle has the stiffness alone; the sum over several rest angles has all.
+/// With one rest angle, moment and rest are zero; a sum over several rest angles has all three.
 template <class Real>
 struct HingeForm {
   Real stiffness, moment, rest;
@@ -29,7 +29,7 @@ class HingeState {
         slope_(form.stiffness * (bend_.measure - numbers[0]) - form.moment),
         twice_((bend_.measure - numbers[0]) * (slope_ - form.moment) + form.rest) {}
 
-  /// Value, and its gradient P by G.
+  /// Value, and its gradient P with respect to G.
   Real value_and_stress(Real P[3][3]) const {
     const Real force = square_ * slope_ * bend_.slope;
     const Real tension = Real(0.0) - square_ * twice_ * areas_.slope;

@@ -88,7 +88,7 @@ inline bool is_of_stars(int index) {
   return Densities::with(index, []<class Density>() { return kOfStars<Density>; });
 }
 
-/// Sets what the numbers of a hinge have of its rest angle; for shells with hinges only.
+/// Sets those numbers of a hinge that depend on its rest angle; for shells with hinges only.
 inline void set_rest_angle(int index, double half_tangent, double* numbers) {
   Densities::with(index, [&]<class Density>() {
     if constexpr (kOfHinges<Density>) Density::set_rest_angle(half_tangent, numbers);

@@ -4,12 +4,12 @@
 
 /// Densities of a membrane in plane stress, per area: functions of 2 E = F^T F - I, the doubled
 /// Green strain of the 3 x 2 deformation gradient F. Symmetric 2 x 2 matrices are stored as xx, yy,
-/// xy. `lam` is the first Lame parameter for the plane, 2 lam mu / (lam + 2 mu) of the solid's: the
-/// thickness is free to change [Timoshenko & Goodier 1970].
+/// xy. `lam` is the first Lame parameter of plane stress, which is 2 lam mu / (lam + 2 mu) for a
+/// solid's lam and mu: the thickness is free to change [Timoshenko & Goodier 1970].
 ///
 /// A membrane has value_and_stress, which returns the density and sets the second Piola-Kirchhoff
-/// stress S, and differential, which sets the change of S for a change of 2 E. Its Blend is the
-/// sum over several poses, with F_k = F A_k against pose k.
+/// stress S, and differential, which sets the change of S for a change of 2 E. Its Blend is the sum
+/// over several poses, with F_k = F A_k relative to pose k.
 namespace snapspace {
 
 /// St.Venant-Kirchhoff in the plane: psi = mu |E|^2 + lam/2 tr(E)^2.
@@ -30,7 +30,7 @@ struct PlaneStVK {
     for (int i = 0; i < 3; ++i) dS[i] = linear[i];
   }
 
-  /// sum_k w_k psi_k(F A_k), collapsed. The strain against a pose is B e + d with e = 2 E and
+  /// sum_k w_k psi_k(F A_k), collapsed. The strain relative to a pose is B e + d with e = 2 E and
   /// d = A^T A - I, so that the sum is the quadratic polynomial e^T Q e / 2 + l^T e + c.
   struct Blend {
     static constexpr int kNumbers = 10;  ///< Q (rows from the diagonal on), l, c

@@ -4,13 +4,13 @@
 
 namespace snapspace {
 
-/// sum_k w_k psi_k(F A_k) of a tet: the energies against several poses of one body, with weights.
-/// F is the deformation gradient against pose 0, and the constant A_k maps the tet's edges in pose
-/// k onto those in pose 0. Each pose contributes some numbers to a tet. Most densities need the
-/// numbers of every pose: the map A_k - I, and the moduli times the tet's volume in pose k. A
-/// density with a nested `Blend` collapses: its numbers are summed over the poses, times the
-/// weights, and evaluating the sum costs the same for any number of poses. The elements of a shell
-/// collapse too, see ShellBlend.
+/// sum_k w_k psi_k(F A_k) of a tet: the weighted sum of its energies relative to several poses of
+/// one body. F is the deformation gradient relative to pose 0, and the constant A_k maps the tet's
+/// edges in pose k onto those in pose 0. Each pose contributes some numbers to a tet. Most
+/// densities need the numbers of every pose: the map A_k - I, and the moduli times the tet's volume
+/// in pose k. A density with a nested `Blend` collapses: its numbers are summed over the poses,
+/// times the weights, and evaluating the sum costs the same for any number of poses. The elements
+/// of a shell collapse too, see ShellBlend.
 template <class Density>
 struct PoseBlend {
   static constexpr bool kCollapses = requires { typename Density::Blend; };
@@ -23,7 +23,7 @@ struct PoseBlend {
       return 9 + Density::kModuli;
   }
 
-  /// The last numbers of a pose that are the same for all poses: they are not summed.
+  /// How many of a pose's last numbers are the same for all poses; these are not summed.
   static constexpr int constants() {
     if constexpr (kOfHinges<Density>)
       return Density::Blend::kConstants;
@@ -47,7 +47,7 @@ struct PoseBlend {
 };
 
 /// The sum over poses of a density that does not collapse, and P = sum_k w_k P_k A_k^T, at the
-/// displacement gradient G against pose 0.
+/// displacement gradient G relative to pose 0.
 /// @param numbers  pose by pose, see PoseBlend: numbers, or packs with one tet per lane
 /// @param density  (moduli, G, P) -> value of the density, with its stress in P
 template <class Number, class Real, class Density>

@@ -13,11 +13,11 @@ namespace snapspace {
 /// No decomposition is needed. With f = tr(R^T F) = s_1 + s_2 + s_3 and e = s_1 s_2 + s_2 s_3 +
 /// s_3 s_1, f^2 = |F|^2 + 2 e, and e is the largest root of e^2 - |cof F|^2 - 2 J f(e). From an
 /// upper bound down to it that function is convex and nearly quadratic. One step of Cauchy's
-/// method, to the root of the local quadratic model, leaves less than 3e-7 of |F|^2, and one step
-/// of Newton's method then leaves only rounding. Only inverted elements need more steps; their
-/// number depends on how far each is inverted, so that lanes do not depend on each other. R is then
-/// a polynomial of F over (s_1 + s_2) (s_2 + s_3) (s_3 + s_1) [Cayley and Hamilton]. Where s_2 +
-/// s_3 vanishes R is not unique, and e is a double root, found to a few digits only. There, at
+/// method, to the root of the local quadratic model, leaves an error below 3e-7 |F|^2, and one step
+/// of Newton's method then leaves only rounding errors. Only inverted elements need more steps. How
+/// many depends on how far each element is inverted, so lanes do not depend on each other. R is
+/// then a polynomial of F over (s_1 + s_2) (s_2 + s_3) (s_3 + s_1) [Cayley and Hamilton]. Where s_2
+/// + s_3 vanishes R is not unique, and e is a double root, found to a few digits only. There, at
 /// mirror images and collapsed needles, R is shortened, everything stays finite, and |F - R|^2
 /// follows from f, to 2e-3 (2e-2 in single precision).
 template <class Real>
@@ -64,7 +64,7 @@ struct RotationDistance {
   static constexpr T kMinSlope = kFloat ? T(1e-3) : T(1e-8);
   /// An |F|^2 that is only rounding: F is a sum with such an error.
   static constexpr T kRounding = kFloat ? T(1e-10) : T(1e-24);
-  /// Keeps the first e above the root, although inverses are rough.
+  /// Keeps the first e above the root although inverses are approximate.
   static constexpr T kAbove = kFloat ? T(1.0005) : T(1);
 
   /// Roughly the square root; nearly zero if a is not positive.

@@ -12,8 +12,8 @@ namespace snapspace {
 /// The energy of a thin shell: a membrane in its triangles, and bending at its hinges [Grinspun,
 /// Hirani, Desbrun, Schroeder 2003]. An element is a triangle or a hinge, see element/rest_shell.h.
 ///
-/// Other densities know no rest shape. This one has numbers of the element's rest shape after its
-/// moduli:
+/// Other densities do not depend on the rest shape. This one has numbers of the element's rest
+/// shape after its moduli:
 ///   triangle  mu, lam, 0, and the 3 x 2 tangent frame T of the rest triangle, row by row. F = T +
 ///   G
 ///             with the first two columns of G; the moduli are those of the plane, times thickness
@@ -32,7 +32,7 @@ struct ShellDensity {
       "mu",     "lam",    "bending", "rest_0", "rest_1", "rest_2",  "rest_3", "rest_4",
       "rest_5", "rest_6", "rest_7",  "rest_8", "rest_9", "rest_10", "rest_11"};
 
-  /// Of a triangle those of the plane; a hinge has the stiffness `bending`.
+  /// A triangle has those of plane stress, a hinge the stiffness `bending`.
   static Lame small_strains(const double* numbers) {
     return {numbers[1], is_triangle(numbers) ? numbers[0] : 0.5 * numbers[2]};
   }
@@ -52,7 +52,8 @@ struct ShellDensity {
     return select(mask, value, bending);
   }
 
-  /// Sets what a hinge's numbers have of its rest angle, from the tangent of half of it.
+  /// Sets those numbers of a hinge that depend on its rest angle, from the tangent of half the
+  /// angle.
   static void set_rest_angle(double tangent, double* numbers) {
     const Bend<double> rest = Bending::of(tangent);
     numbers[kScaled] = rest.measure;
@@ -89,7 +90,7 @@ struct ShellDensity {
     }
   }
 
-  /// The Hessian (9 x 9) by the entries of G.
+  /// The Hessian (9 x 9) with respect to G.
   static void hessian(const double* numbers, const double G[3][3], double H[9][9]) {
     if (!is_triangle(numbers)) {
       const HingeState<Bending, double> state = hinge_state(numbers, G);

@@ -50,12 +50,12 @@ class RotationDerivative {
   PrincipalMap distance_;
 };
 
-/// As rigid as possible on surfaces, spokes and rims [Sorkine, Alexa 2007; Chao, Pinkall, Sanan,
+/// As-rigid-as-possible on surfaces, spokes and rims [Sorkine, Alexa 2007; Chao, Pinkall, Sanan,
 /// Schroeder 2010]: psi = mu |F - R L|^2 with F = L + G and the rotation R nearest to F L^T.
 ///
 /// An element is the star of a vertex, see VertexStars; L L^T is the mean of the projections onto
-/// the planes of its triangles. A triangle alone has its tangent frame as the first two columns of
-/// L, and the displacement gradient (3 x 2) as those of G, like other shells.
+/// the planes of its triangles. For a single triangle, the first two columns of L are its tangent
+/// frame, and those of G its displacement gradient (3 x 2), as in other shells.
 struct ShellArap {
   static constexpr const char* kName = "shell-arap";
   static constexpr int kModuli = 12;
@@ -92,7 +92,7 @@ struct ShellArap {
     return numbers[0] * square;
   }
 
-  /// The Hessian (9 x 9) by the entries of G.
+  /// The Hessian (9 x 9) with respect to G.
   static void hessian(const double* numbers, const double G[3][3], double H[9][9]) {
     double L[3][3], F[3][3], S[3][3];
     frame(numbers, L);

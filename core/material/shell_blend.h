@@ -7,14 +7,14 @@
 namespace snapspace {
 
 /// sum_k w_k psi_k of a triangle or a hinge in several poses, collapsed: the cost does not depend
-/// on the number of poses. G is the one against pose 0.
+/// on the number of poses. G is relative to pose 0.
 ///
 /// A triangle has F_k = F_0 A_k, with the constant map A_k (2 x 2) between the tangent frames, and
 /// its membrane collapses as `Membrane::Blend` says. A hinge has a quadratic polynomial of the
-/// strain against pose 0, see HingeForm: all poses share the product of areas that lets bending
+/// strain relative to pose 0, see HingeForm: all poses share the product of areas that lets bending
 /// vanish.
-/// Numbers that follow those sums are the same for all poses: whether it is a triangle, whether it
-/// is a hinge, and the numbers of the rest shape in pose 0.
+/// The numbers that follow these sums are the same for all poses: whether the element is a
+/// triangle, whether it is a hinge, and the numbers of the rest shape in pose 0.
 template <class Membrane, class Bending>
 struct ShellBlend {
   using Sheet = typename Membrane::Blend;
@@ -22,11 +22,11 @@ struct ShellBlend {
   static constexpr int kRest = 12;  ///< numbers of a rest shape, see ShellDensity
   static constexpr int kConstants = 2 + kRest;
   static constexpr int kNumbers = kSums + kConstants;
-  static_assert(kSums >= 3, "room for a HingeForm");
+  static_assert(kSums >= 3, "space for a HingeForm");
 
   /// @param numbers  of the density in the pose, with moduli times the element's measure there
   /// @param first    those in pose 0
-  /// @param G        displacement gradient of pose 0 against the pose
+  /// @param G        displacement gradient of pose 0 relative to the pose
   static void fill(const double* numbers, const double* first, const double G[3][3],
                    double* result) {
     const bool triangle = numbers[0] > 0.0;
@@ -65,7 +65,7 @@ struct ShellBlend {
     return select(mask, value, bending);
   }
 
-  /// The Hessian (9 x 9) by the entries of G.
+  /// The Hessian (9 x 9) with respect to G.
   static void hessian(const double* numbers, const double G[3][3], double H[9][9]) {
     if (!(numbers[kSums] > 0.0)) {
       const HingeState<Bending, double> state = hinge(numbers, G);
@@ -81,8 +81,8 @@ struct ShellBlend {
   }
 
  private:
-  /// The measure from which strains count. That of pose 0 itself would take the digits of the
-  /// others if it is folded there.
+  /// The measure relative to which strains are taken. With that of pose 0 itself, the others would
+  /// lose digits if the hinge is folded there.
   static double reference(const double* first) {
     constexpr double kMost = 3.0;
     return first[3] < -kMost ? -kMost : first[3] > kMost ? kMost : first[3];

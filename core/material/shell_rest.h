@@ -6,7 +6,7 @@ namespace snapspace {
 
 /// Sets the numbers of a shell's density that belong to the rest shape of an element.
 /// @param kind     the density, one of shells
-/// @param product  of a hinge: four times the product of both areas at which bending has its whole
+/// @param product  for a hinge, four times the product of both areas at which bending has its full
 ///                 stiffness
 /// @param numbers  material_moduli(kind), with the moduli first
 inline void set_rest_shape(int kind, const double* vertices, const std::int32_t corners[4],

@@ -32,7 +32,7 @@ struct StableNeoHookean {
 
   static PrincipalCurvature curvature(const double* moduli, const double s[3]) {
     const double mu = moduli[1], volume = moduli[0] + mu;
-    // J and its derivatives by s: s_j s_k, and s_k
+    // J and its derivatives with respect to s: s_j s_k, and s_k
     const double pressure = volume * (s[0] * s[1] * s[2] - 1.0) - mu;
     PrincipalCurvature result;
     for (int i = 0; i < 3; ++i) {
@@ -94,7 +94,7 @@ struct StableNeoHookean {
       return numbers[8] + (square + volume) + half * pressure * change.determinant;
     }
 
-    /// The Hessian by the entries of G: M, alpha cof F (x) cof F, and the derivative of cof F.
+    /// The Hessian with respect to G: M, alpha cof F (x) cof F, and the derivative of cof F.
     static void hessian(const double* numbers, const double G[3][3], double H[9][9]) {
       const VolumeChange<double> change(G);
       const double gamma = numbers[6], alpha = numbers[7];

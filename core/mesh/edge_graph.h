@@ -10,7 +10,7 @@ struct EdgeGraph {
   std::vector<std::int32_t> ends;
   std::vector<double> lengths;
 
-  /// @param shapes  count x n x 3; an edge is as long as on average in all of them
+  /// @param shapes  count x n x 3; the length of an edge is its mean in all of them
   /// @param cells   cell_count x corners, triangles or tets: all corners of a cell are connected
   EdgeGraph(const double* shapes, int count, int vertex_count, const std::int32_t* cells,
             int cell_count, int corners);

@@ -12,7 +12,8 @@ namespace snapspace {
 
 namespace {
 
-/// Walks from end to end of a component. After two or three of them the ends no longer move apart.
+/// Number of walks from end to end of a component. After two or three, the ends no longer move
+/// apart.
 constexpr int kWalks = 4;
 
 /// Vertices of one component, breadth first from `root`. Every vertex that is found gets the mark.

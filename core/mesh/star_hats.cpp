@@ -16,8 +16,8 @@ namespace {
 /// Reach of a hat in radii: hats of neighbouring stars overlap at their centers' distance.
 constexpr double kSupport = 2.0;
 
-/// Distances are whole numbers, so many to the radius: rounding decides nothing, and a mesh has the
-/// same stars in all frames, units and on all processors.
+/// Distances are whole numbers, with this many units to the radius. So rounding decides nothing: a
+/// mesh has the same stars in all frames and units and on all processors.
 constexpr std::int64_t kRadius = 1 << 20;
 constexpr std::int64_t kReach = static_cast<std::int64_t>(kSupport * kRadius);
 constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
@@ -43,7 +43,7 @@ class Distances {
     while (!next.empty()) {
       const auto [distance, vertex] = next.top();
       next.pop();
-      if (distance > distances_[vertex]) continue;  // was reached on a shorter way
+      if (distance > distances_[vertex]) continue;  // was reached by a shorter path
       found_.emplace_back(vertex, distance);
       for (int e = first_[vertex]; e < first_[vertex + 1]; ++e) {
         const std::int64_t farther = distance + lengths_[e];

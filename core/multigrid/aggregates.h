@@ -5,16 +5,16 @@
 
 namespace snapspace {
 
-/// A partition of the unknowns of a matrix into small connected sets, each of which becomes an
-/// unknown of a coarser grid.
+/// A partition of the unknowns of a matrix into small connected sets. Each set becomes an unknown
+/// of a coarser grid.
 struct Aggregates {
   std::vector<std::int32_t> of;  ///< the aggregate of every unknown
-  std::int32_t count = 0;        ///< in the order of the unknowns that they began with
+  std::int32_t count = 0;        ///< in the order of their first unknowns
 };
 
 /// Aggregates are unknowns with all their neighbours, where these do not overlap; the unknowns in
 /// between join a neighbouring aggregate (Vanek, Mandel, Brezina 1996, sec. 5.1, with all
-/// neighbours taken for strong).
+/// neighbours treated as strong).
 /// @param A  both triangles stored; only the pattern is read
 [[nodiscard]] Aggregates aggregated(const Eigen::SparseMatrix<double>& A);
 

@@ -36,7 +36,7 @@ double lowest_eigenvalue(const Eigen::SparseMatrix<double>& A, const TwoGridCycl
   Scratch scratch;
   Eigen::VectorXd residual = random_vector(A.cols()), image = applied(cycle, residual, scratch);
   Eigen::VectorXd search = image;
-  std::vector<double> diagonal, off_diagonal;  // of the tridiagonal matrix of Lanczos' method
+  std::vector<double> diagonal, off_diagonal;  // Lanczos' tridiagonal matrix
   double norm = residual.dot(image), ratio = 0.0, step = 1.0;
   const double negligible = 1e-20 * norm;
   while (static_cast<int>(diagonal.size()) < kSteps && norm > negligible) {

@@ -13,8 +13,8 @@ namespace snapspace::online {
 
 /// BFGS on the inverse Hessian (Nocedal & Wright 2006, alg. 6.1) with a line search for the weak
 /// Wolfe conditions, which keep the inverse positive definite. An iteration passes over the inverse
-/// once: the update of the iteration before is done on the way, and the next direction follows from
-/// the product with the new gradient. The constructor allocates all memory.
+/// once: the update of the previous iteration is done on the way, and the next direction follows
+/// from the product with the new gradient. The constructor allocates all memory.
 class Bfgs {
  public:
   explicit Bfgs(int capacity)
@@ -143,8 +143,8 @@ inline bool Bfgs::line_search(Objective& objective, const double* q, Report& rep
   constexpr double kCurvature = 0.9;
   double near = 0.0;
   double far = std::numeric_limits<double>::infinity();
-  // After a step that had to be shortened the next ones would often be too long as well: the first
-  // trial goes back to one by the power 3/4 of the step before.
+  // After a step that had to be shortened, the next full steps would often be too long as well, so
+  // the first trial is the power 3/4 of the previous step, which returns to one.
   step_ = std::min(1.0, std::sqrt(step_ * std::sqrt(step_)));
   for (int trial = 0; trial < kMaxTrials; ++trial) {
     if (report.evaluations >= stop.max_evaluations) return false;

@@ -69,7 +69,7 @@ void BlendedCubature::set_tet(int tet, double weight, const double* moduli, cons
   for (int k = 0; k < poses_; ++k) {
     const std::size_t pair = static_cast<std::size_t>(tet) * poses_ + k;
     const RestTet rest = make_rest_element(shell, corners(k), order);
-    // F A = F + F map: the map is pose 0's displacement gradient against pose k
+    // F A = F + F map: the map is pose 0's displacement gradient relative to pose k
     double map[3][3];
     gradient_between(rest, corners(k), corners(0), map);
     for (int e = 0; e < 9; ++e) maps_[9 * pair + e] = map[e / 3][e % 3];
@@ -101,7 +101,7 @@ void BlendedCubature::set_weights(const double* weights) {
   }
 }
 
-/// Displacement gradients against pose 0, from those of the modes.
+/// Displacement gradients relative to pose 0, from those of the modes.
 void BlendedCubature::add_offsets(int block, const Tets modes[3][3], Tets G[3][3]) const {
   for (int e = 0; e < 9; ++e) G[e / 3][e % 3] = modes[e / 3][e % 3] + offsets_[9 * block + e];
 }
@@ -128,8 +128,8 @@ BlendedCubature::Tets BlendedCubature::block_energy(int block, const Tets modes[
                         });
 }
 
-/// Adds the Hessian of a tet's energy against a pose, by its displacement gradient against pose 0,
-/// times the pose's weight: dP = P'(dF A) A^T.
+/// Adds the pose's weight times the Hessian of a tet's energy relative to a pose, with respect to
+/// its displacement gradient relative to pose 0: dP = P'(dF A) A^T.
 void BlendedCubature::add_curvature(int tet, int pose, const double G[3][3],
                                     double hessian[9][9]) const {
   const std::size_t pair = static_cast<std::size_t>(tet) * poses_ + pose;
@@ -150,7 +150,7 @@ void BlendedCubature::add_curvature(int tet, int pose, const double G[3][3],
   }
 }
 
-/// Sets the Hessian of a shell's element by its displacement gradient against pose 0.
+/// Sets a shell element's Hessian with respect to its displacement gradient relative to pose 0.
 void BlendedCubature::shell_curvature(int block, int lane, const double G[3][3],
                                       double hessian[9][9]) const {
   Densities::with(kind_, [&]<class Density>() {

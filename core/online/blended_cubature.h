@@ -23,9 +23,9 @@ class BlendedCubature final : public TetEnergies {
   static constexpr bool kHessianIsExpensive = true;
 
   /// Copies its arrays. The weights of the poses are initially zero.
-  /// @param rows  tets x 9 x dimension, displacement gradients of the modes against pose 0
+  /// @param rows  tets x 9 x dimension, displacement gradients of the modes relative to pose 0
   /// @param weights  tets, the volume in pose 0 that each represents
-  /// @param material  of these tets; of a shell that of pose 0, see shell_pose_materials
+  /// @param material  of these tets; for a shell, that of pose 0, see shell_pose_materials
   /// @param clusters  if given, rows are those of local coordinates, see TetRows
   BlendedCubature(int dimension, int tets, const float* rows, const double* weights,
                   const TetMaterial& material, const PoseTets& poses,
@@ -52,8 +52,8 @@ class BlendedCubature final : public TetEnergies {
   double derivatives(const double* q, double* gradient, double* hessian);
 
   [[nodiscard]] int tets() const { return rows_.tets(); }
-  /// Weighted Hessians of the tets' energies at q (d) by their displacement gradients, tets x 9 x
-  /// 9.
+  /// Weighted Hessians of the tets' energies at q (d) with respect to their displacement gradients,
+  /// tets x 9 x 9.
   void curvatures(const double* q, float* hessians);
   /// Weighted stresses of the tets at q (d), tets x 9.
   void stresses(const double* q, float* stresses);
@@ -70,12 +70,12 @@ class BlendedCubature final : public TetEnergies {
 
   TetRows rows_;
   HalfRunner* half_runner_ = nullptr;
-  std::vector<double> second_half_;  // of the blocks: their Hessian
+  std::vector<double> second_half_;  // Hessian of the second half of the blocks
   int kind_, poses_;
   bool collapses_;
   int numbers_count_, moduli_count_;   // per tet and pose
   int sums_count_;                     // the numbers that are summed over the poses
-  std::vector<double> weights_;        // of the poses
+  std::vector<double> weights_;        // weights of the poses
   std::vector<Tets> offsets_;          // block, entry: displacement gradients of tau
   std::vector<double> maps_, moduli_;  // tet, pose: A - I, and the moduli times volume
   std::vector<Tets> numbers_;          // block, pose: see PoseBlend

@@ -7,7 +7,7 @@
 
 namespace snapspace::online {
 
-/// Some stars of a surface that is as rigid as possible, in several poses. Every pose has its own
+/// Some stars of an as-rigid-as-possible surface in several poses. Every pose has its own
 /// stars at the same vertices, so all arrays begin with a pose.
 struct PoseStars {
   int poses, stars;
@@ -19,10 +19,10 @@ struct PoseStars {
                           ///< symmetric matrix M for the value (q, 1)^T M (q, 1)
 };
 
-/// The blended energy sum_k w_k E_k of a surface that is as rigid as possible: a weighted sum over
-/// few stars, the same for all poses, and an exact quadratic form for the rest; see VertexStars.
-/// The rotations of a star differ from pose to pose, so an evaluation costs 18 r d multiply-adds
-/// for each pose whose weight is not zero. Allocates no memory after construction.
+/// The blended energy sum_k w_k E_k of an as-rigid-as-possible surface: a weighted sum over few
+/// stars, the same for all poses, and an exact quadratic form for the rest; see VertexStars. The
+/// rotations of a star differ from pose to pose, so an evaluation costs 18 r d multiply-adds for
+/// each pose whose weight is not zero. Allocates no memory after construction.
 class BlendedStars final : public TetEnergies {
  public:
   static constexpr bool kHessianIsExpensive = true;
@@ -52,10 +52,10 @@ class BlendedStars final : public TetEnergies {
 
   /// Stars times poses.
   [[nodiscard]] int tets() const { return rows_.tets(); }
-  /// Weighted Hessians of the stars' energies at q (d) by their nine numbers, pose by pose: poses x
-  /// stars x 9 x 9. The quadratic form is not part of them.
+  /// Weighted Hessians of the stars' energies at q (d) with respect to their nine numbers, pose by
+  /// pose: poses x stars x 9 x 9. The quadratic form is not part of them.
   void curvatures(const double* q, float* hessians);
-  /// Weighted derivatives of the stars' energies by these numbers, poses x stars x 9.
+  /// Weighted derivatives of the stars' energies with respect to these numbers, poses x stars x 9.
   void stresses(const double* q, float* stresses);
 
   /// See TetEnergies; `modes` are their nine numbers.
@@ -68,7 +68,7 @@ class BlendedStars final : public TetEnergies {
 
   TetRows rows_;
   HalfRunner* half_runner_ = nullptr;
-  std::vector<double> second_half_;  // of the blocks: their Hessian
+  std::vector<double> second_half_;  // Hessian of the second half of the blocks
   int kind_, moduli_count_;
   std::vector<double> weights_;  // of the poses
   std::vector<double> forms_;    // of the poses

@@ -31,8 +31,8 @@ double Cubature::value_and_gradient(const double* q, double* gradient) {
   return block_sum(rows_, half_runner_, q, *this, gradient);
 }
 
-/// Weighted Hessians (9 x 9) of a block's tets by their displacement gradients; zero for lanes
-/// without a tet.
+/// Weighted Hessians (9 x 9) of a block's tets with respect to their displacement gradients; zero
+/// for lanes without a tet.
 void Cubature::block_curvatures(int block, const Tets G[3][3], Tets hessian[9][9]) const {
   for (int f = 0; f < 9; ++f) std::fill_n(hessian[f], 9, Tets(0.0));
   for (int lane = 0; lane < rows_.lanes(block); ++lane) {

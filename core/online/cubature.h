@@ -42,8 +42,8 @@ class Cubature final : public TetEnergies {
   double derivatives(const double* q, double* gradient, double* hessian);
 
   [[nodiscard]] int tets() const { return rows_.tets(); }
-  /// Weighted Hessians of the tets' energies at q (d) by their displacement gradients, tets x 9 x
-  /// 9.
+  /// Weighted Hessians of the tets' energies at q (d) with respect to their displacement gradients,
+  /// tets x 9 x 9.
   void curvatures(const double* q, float* hessians);
   /// Weighted stresses of the tets at q (d), tets x 9.
   void stresses(const double* q, float* stresses);
@@ -55,7 +55,7 @@ class Cubature final : public TetEnergies {
  private:
   TetRows rows_;
   HalfRunner* half_runner_ = nullptr;
-  std::vector<double> second_half_;  // of the blocks: their Hessian
+  std::vector<double> second_half_;  // Hessian of the second half of the blocks
   int kind_, moduli_count_;
   std::vector<Tets> moduli_;  // block, modulus: times weight; zero for lanes without a tet
 };

@@ -92,7 +92,7 @@ class DragExtrapolation {
   /// Whether a previous step is about as long as the next one, which has length 1.
   static bool steady(double step) { return step > 1.0 / kMaxRatio && step < kMaxRatio; }
 
-  int size_, count_ = 0;  // of inputs, and of known frames; the newest frame is first
+  int size_, count_ = 0;  // numbers of inputs and of known frames; the newest is first
   Frame frames_[kFrames];
 };
 

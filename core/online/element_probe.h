@@ -45,8 +45,8 @@ class ElementProbe : public ResidualProbe {
   int corners_;
   int kind_, moduli_per_tet_;  // the density, and the stride of moduli; 0 if all tets share them
   std::vector<double> tau_, modes_, rest_shapes_;
-  std::vector<double> moduli_;  // of a shell those of every rest shape
-  std::vector<RestTet> tets_;   // of the first rest shape, then of the next
+  std::vector<double> moduli_;  // for a shell, those of every rest shape
+  std::vector<RestTet> tets_;   // tets of the first rest shape, then of the next
   std::vector<std::int32_t> sampled_;
   std::vector<double> sample_weights_;
   PinSprings pins_;

@@ -34,7 +34,7 @@ void run_halves(HalfRunner* runner, Callable work) {
   }
 }
 
-/// The same for work that reads so many words: one half after the other if these are few.
+/// The same for work that reads this many words; if they are few, one half runs after the other.
 template <class Callable>
 void run_halves(HalfRunner* runner, std::size_t words, Callable work) {
   run_halves(words < kMinSharedWords ? nullptr : runner, work);

@@ -23,7 +23,7 @@ class LocalModes {
 
   /// y = modes q. Reads the first 2 * pairs entries of q, and writes packs of y: twins() * 2.
   void multiply(int pairs, const double* q, Pack* y) const;
-  /// Adds modes^T f to `sums` (2 * pairs), whose lanes are summed at last.
+  /// Adds modes^T f to `sums` (2 * pairs), whose lanes are summed in the end.
   void add_transposed(int pairs, const Pack* f, Pack* sums) const;
   /// The entries of the first coordinates, rank x dimension.
   void unpack(int rank, int dimension, double* modes) const;

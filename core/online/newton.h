@@ -14,7 +14,7 @@ namespace snapspace::online {
 
 /// Newton's method with a shifted Hessian and a line search. The constructor allocates all memory.
 /// Where the Hessian H is not positive definite, H + shift * metric replaces it (Nocedal & Wright
-/// 2006, sec. 3.4): with the Hessian at rest as the metric, a shift has no unit and acts alike on
+/// 2006, sec. 3.4): with the Hessian at rest as the metric, a shift has no unit and acts equally on
 /// stiff and soft directions. A step is first tried at full length. If that does not decrease the
 /// value sufficiently, or ends where the line is still steep, the next trial is the minimiser of
 /// the LineQuartic, which is exact for quartic objectives. A point where the gradient vanishes but

@@ -24,14 +24,14 @@ class PinSprings {
         pulls_(pins.pulls, pins.pulls + pins.count),
         arms_(pins.arms, pins.arms + 3 * static_cast<std::size_t>(pins.count)) {}
 
-  /// Adds the part of the displacements (3 per vertex).
+  /// Adds the part that depends on the displacements (3 per vertex).
   void add_pulls(const double* displacement, double* gradient) const {
     for (std::size_t i = 0; i < places_.size(); ++i)
       for (std::size_t e = 3 * static_cast<std::size_t>(places_[i]), a = 0; a < 3; ++a)
         gradient[e + a] += pulls_[i] * displacement[e + a];
   }
 
-  /// Subtracts the part of what the handles want: arms moved by offsets (handles x 12).
+  /// Subtracts the part that depends on the handles' targets: arms moved by offsets (handles x 12).
   void subtract_wanted(const double* offsets, double* gradient) const {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const double* arm = arms_.data() + 3 * i;

@@ -236,8 +236,8 @@ void Quartic::add_linear(double factor) {
   }
 }
 
-/// gradient = factor * the gradient of the form by q. Returns the value of the polynomial with this
-/// gradient.
+/// gradient = factor * the gradient of the form with respect to q. Returns the value of the
+/// polynomial with this gradient.
 double Quartic::form_gradient(double factor, double* gradient) {
   const int n = dimension_ + 1;
   std::fill_n(gradient_.data(), stride_, 0.0);

@@ -21,8 +21,9 @@ enum class Storage : int { double_precision = 0, single_precision = 1 };
 /// fastest. The polynomial restricted to the first d' < d variables is therefore a prefix of the
 /// array. They are copied into PackedLayout, and every evaluation reads the copy once.
 /// One pass gives value, gradient and Hessian, because for a form of degree four all follow from
-/// the Hessian H by x: the gradient is H x / 3 and the value x . gradient / 4. For each coefficient
-/// the pass does three multiply-adds into sums that stay in registers and the first-level cache:
+/// the Hessian H with respect to x: the gradient is H x / 3 and the value x . gradient / 4. For
+/// each coefficient the pass does three multiply-adds into sums that stay in registers and the
+/// first-level cache:
 ///   forms_kl   = sum_ij c_ijkl x_i x_j
 ///   cubic_kij += c_ijkl x_l   and   cubic_lij += c_ijkl x_k
 /// H follows from these at the cost of a form of degree three.

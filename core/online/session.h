@@ -82,7 +82,7 @@ inline bool all_finite(const double* numbers, std::size_t count) {
 }
 
 /// Reads a material for this many tets.
-/// @returns SNAPSPACE_OK or an error, and then `result` is as it was
+/// @returns SNAPSPACE_OK, or an error; `result` is then unchanged
 inline int read_material(const snapspace_material& given, int tets, TetMaterial& result) {
   if (!given.kind) return SNAPSPACE_BAD_ARGUMENT;
   const int kind = material_index(given.kind);

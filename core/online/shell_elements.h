@@ -7,8 +7,8 @@
 #include "material/shell_rest.h"
 #include "material/tet_material.h"
 
-/// Elements of a shell from their corners (4 x 3), and three moduli: of a triangle mu > 0, lam, 0;
-/// of a hinge 0, 0, bending.
+/// Elements of a shell from their corners (4 x 3) and three moduli: mu > 0, lam, 0 for a triangle;
+/// 0, 0, bending for a hinge.
 namespace snapspace::online {
 
 inline constexpr std::int32_t kHingeCorners[4] = {0, 1, 2, 3};
@@ -23,8 +23,7 @@ inline constexpr std::int32_t kTriangleCorners[4] = {0, 1, 2, 2};
 }
 
 /// Rows of a ShellDensity: the moduli, and the numbers of the rest shapes.
-/// @param area_products  of hinges, at which bending has its whole stiffness; null for those at
-/// rest
+/// @param area_products  of hinges, at which bending has its full stiffness; null for those at rest
 /// @param rows           elements x moduli of the density at `kind`, overwritten
 inline void shell_moduli(int kind, int elements, const double* points, const double* moduli,
                          const double* area_products, double* rows) {

@@ -1,11 +1,11 @@
 #pragma once
-/* The live solve of a reduced model for programs in C, or that can call C.
+/* The live solve of a reduced model, for programs in C or in languages that can call C.
  *
  * A session is made from the arrays of a .snapspace file (safetensors layout). It takes new handle
  * positions or pose weights, solves, and returns coordinates and vertices. No function throws,
  * prints, reads files or starts threads. Only the functions that create a session or set its probe,
- * and the first step in time, allocate memory; if there is none, they end the program as C++ does.
- * A session may be used by one thread at a time.
+ * and the first step in time, allocate memory; if there is none left, they end the program as C++
+ * does. A session may be used by one thread at a time.
  *
  * All numbers are doubles unless declared otherwise, and all arrays are row-major. Functions return
  * 0, or one of the errors below; after an error the session is unchanged.
@@ -58,7 +58,7 @@ typedef struct snapspace_report {
   int iterations;
   int evaluations;
   double value;         /* reduced objective */
-  double gradient_norm; /* of the gradient by q */
+  double gradient_norm; /* of the gradient with respect to q */
 } snapspace_report;
 
 /* A posing session, at rest. Copies quartic (C(dimension + 4, 4)), K (dimension x dimension), L
@@ -70,11 +70,11 @@ snapspace_session* snapspace_create_posing(int dimension, int handles, const dou
 
 /* The material of tets. Moduli are energies per volume, and not negative. The elements of a shell,
  * triangles and hinges, count as tets; rows of their moduli are followed by numbers of the rest
- * shape, see core/material/shell.h, and core/material/shell_arap.h for the stars of a surface that
- * is as rigid as possible. */
+ * shape, see core/material/shell.h, and core/material/shell_arap.h for the stars of an
+ * as-rigid-as-possible surface. */
 typedef struct snapspace_material {
   const char* kind;     /* name of the density, such as "stable-neo-hookean" */
-  int count;            /* rows of moduli: 1 if all tets share them, or one per tet; of a shell
+  int count;            /* rows of moduli: 1 if all tets share them, or one per tet; for a shell,
                            one per element */
   const double* moduli; /* count x number of the density's moduli, in its order */
 } snapspace_material;
@@ -117,10 +117,10 @@ int snapspace_displacement_rows(int tets, int dimension, const double* points, c
                                 const double* shell_moduli, float* rows);
 
 /* Computes the rows of moduli of a shell's elements, with the numbers of their rest shapes:
- * elements x number of the density's moduli. points (elements x 4 x 3) are the corners at rest,
- * those of a triangle with the last one twice, and of a hinge the ends of its edge and the other
- * corners of the triangles to its left and right. shell_moduli (elements x 3): of a triangle mu > 0
- * and lam of the plane, times thickness, and 0; of a hinge 0, 0, and its bending stiffness.
+ * elements x number of the density's moduli. points (elements x 4 x 3) are the corners at rest: for
+ * a triangle, its corners with the last one twice; for a hinge, the ends of its edge and the other
+ * corners of the triangles to its left and right. shell_moduli (elements x 3) are mu > 0 and lam of
+ * plane stress, times thickness, and 0 for a triangle; 0, 0 and the bending stiffness for a hinge.
  * area_products is null; or, for a blend, it has for each hinge the geometric mean over all poses
  * of four times the product of both triangles' areas (elements), and points are those of pose 0. */
 int snapspace_shell_moduli(const char* kind, int elements, const double* points,
@@ -149,10 +149,10 @@ snapspace_session* snapspace_create_blending_cubature(int dimension, int poses,
                                                       const double* corners, const double* tau,
                                                       const snapspace_basis* basis, int* error);
 
-/* The blended energy of a surface that is as rigid as possible, as a weighted sum over the stars of
- * few vertices, the same in all poses. In every pose a star has its own moduli and nine numbers:
- * rows times coordinates, added to origins, those at the mean shape. forms are symmetric matrices M
- * for what the stars leave of the energy of each pose, (q, 1)^T M (q, 1). */
+/* The blended energy of an as-rigid-as-possible surface, as a weighted sum over the stars of few
+ * vertices, the same in all poses. In every pose a star has its own moduli and nine numbers: rows
+ * times coordinates, added to origins, those at the mean shape. forms are symmetric matrices M for
+ * what the stars leave of the energy of each pose, (q, 1)^T M (q, 1). */
 typedef struct snapspace_stars {
   int poses;
   int stars;
@@ -163,7 +163,7 @@ typedef struct snapspace_stars {
   const double* forms;         /* poses x (dimension + 1) x (dimension + 1) */
 } snapspace_stars;
 
-/* A blending session of a surface that is as rigid as possible; copies its arrays. Its solves are
+/* A blending session of an as-rigid-as-possible surface; copies its arrays. Its solves are
  * fastest with SNAPSPACE_BFGS. */
 snapspace_session* snapspace_create_blending_stars(int dimension, const snapspace_stars* stars,
                                                    const snapspace_basis* basis, int* error);
@@ -231,7 +231,7 @@ typedef struct snapspace_probe {
   const double* arms;          /* pins x 3, from the centroid of the handle at rest */
 } snapspace_probe;
 
-/* The same of a surface that is as rigid as possible, whose elements are stars. The gradient at a
+/* The same for an as-rigid-as-possible surface, whose elements are stars. The gradient at a
  * sampled vertex is a linear function of the shape plus stress times vector, for each star around
  * it; with the nine numbers of each star and the linear functions in that order, a pose has
  * 9 stars + 3 samples numbers. */

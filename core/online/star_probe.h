@@ -8,7 +8,7 @@
 
 namespace snapspace::online {
 
-/// What the residual of a surface that is as rigid as possible depends on at some places. The
+/// What the residual of an as-rigid-as-possible surface at some places depends on. The
 /// energy is a quadratic form plus a sum over stars, see VertexStars, so its gradient at a place is
 /// a linear function of the shape plus the stresses of the stars around it, times vectors. The
 /// numbers of a pose are 9 per star, and then that function, 3 per place.
@@ -24,11 +24,11 @@ struct ProbeStars {
   const double* weights;       ///< places, of the squared residuals there
 };
 
-/// The residual at places of a surface that is as rigid as possible.
+/// The residual at places of an as-rigid-as-possible surface.
 class StarProbe : public ResidualProbe {
  public:
-  /// Copies all arrays. Indices must be in range. The linear functions include what pins pull by
-  /// displacements.
+  /// Copies all arrays. Indices must be in range. The linear functions include the part of the
+  /// pins' pull that depends on displacements.
   StarProbe(const ProbeStars& stars, const ProbePins& pins);
 
   double norm(const double* q, int dimension, const double* offsets,
@@ -44,7 +44,7 @@ class StarProbe : public ResidualProbe {
   std::vector<std::int32_t> part_stars_, part_places_;
   std::vector<double> part_vectors_, weights_;
   PinSprings pins_;
-  std::vector<double> numbers_, stresses_;  // of a pose; 9 per star
+  std::vector<double> numbers_, stresses_;  // numbers of a pose; 9 stresses per star
   std::vector<double> gradient_;            // 3 per place
 };
 

@@ -11,15 +11,16 @@
 
 namespace snapspace::online {
 
-/// The energies of tets by their displacement gradients, a block at a time: one tet in each lane.
+/// The energies of tets as functions of their displacement gradients, a block at a time: one tet in
+/// each lane.
 class TetEnergies {
  public:
   using Tets = Lanes<kWideLanes>;
 
-  /// Returns the energies of a block's tets, and sets their stresses P by their displacement
-  /// gradients G.
+  /// Returns the energies of a block's tets at their displacement gradients G, and sets their
+  /// stresses P.
   virtual Tets block_energy(int block, const Tets G[3][3], Tets P[3][3]) const = 0;
-  /// Sets the Hessians C of a block's tets by their displacement gradients.
+  /// Sets the Hessians C of a block's tets with respect to their displacement gradients.
   virtual void block_curvatures(int block, const Tets G[3][3], Tets C[9][9]) const = 0;
 
  protected:
@@ -86,7 +87,7 @@ class TetRows {
   /// All tets are in one cluster without modes if their maps are of q itself.
   struct Cluster {
     int first, end;     ///< its first block, and the one after its last
-    int rank, pairs;    ///< of local coordinates
+    int rank, pairs;    ///< numbers of local coordinates, and of pairs of these
     int stride;         ///< pairs of a block's words
     std::size_t words;  ///< where its words begin
     LocalModes modes;   ///< empty if local coordinates are q itself
@@ -96,10 +97,10 @@ class TetRows {
   /// What half of an evaluation works on.
   struct Half {
     std::vector<double> local;     ///< local coordinates of the present cluster, or q
-    std::vector<Tets> local_sums;  ///< of its forces
-    std::vector<Tets> sums;        ///< of the forces of q, lane by lane
+    std::vector<Tets> local_sums;  ///< sums of the forces of these coordinates
+    std::vector<Tets> sums;        ///< sums of the forces of q, lane by lane
     std::vector<LocalModes::Pack> packs;
-    std::vector<double> hessian, modes, product;  ///< of the present cluster
+    std::vector<double> hessian, modes, product;  ///< work arrays of the present cluster
   };
 
   [[nodiscard]] std::span<const int> blocks_of(int half) const {
@@ -135,11 +136,12 @@ class TetRows {
   void add_stresses(const Cluster& cluster, Half& work, int block, const Tets P[3][3]) const;
   /// Adds the forces of the local coordinates to those of q.
   void add_forces(const Cluster& cluster, Half& work) const;
-  /// Adds a block's part G_e^T curvature G_e to the lower triangle of `hessian`, by the local
-  /// coordinates (rank x rank).
+  /// Adds a block's part G_e^T curvature G_e to the lower triangle of `hessian`, with respect to
+  /// the local coordinates (rank x rank).
   void add_curvatures(const Cluster& cluster, int block, const Tets curvature[9][9],
                       double* hessian) const;
-  /// Adds the cluster's Hessian by the local coordinates, if they are not q itself, to that by q.
+  /// Adds the cluster's Hessian with respect to the local coordinates, if they are not q itself, to
+  /// that with respect to q.
   void add_local_hessian(const Cluster& cluster, Half& work, double* hessian) const;
 
   [[nodiscard]] const Tets* words(const Cluster& cluster, int block) const {
@@ -148,7 +150,7 @@ class TetRows {
   }
 
   int capacity_, dimension_;
-  int pairs_;  // of coordinates, for the current dimension
+  int pairs_;  // number of pairs of coordinates, for the current dimension
   int tets_;
   std::vector<int> all_, active_;  // blocks, ascending
   std::vector<Cluster> clusters_;

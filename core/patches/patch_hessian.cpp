@@ -14,7 +14,7 @@ namespace {
 
 /// Growth of the shift.
 constexpr double kMoreShift = 4.0, kMostShift = 1e6;
-/// Least sum of two stretches of a star: with less its rotation is hardly defined.
+/// Smallest sum of two stretches of a star; below it, the rotation is hardly defined.
 constexpr double kLeastStretches = 0.05;
 
 /// The sum of hat (x) gradient over corners. In a function of its own, because sums stay in
@@ -108,7 +108,7 @@ void PatchHessian::find_hats(int count, const std::int32_t* corners) {
 
 /// With S = F L^T = U diag(s) V^T, the part of a star's energy that depends on its rotation is -2
 /// weight (s_1 + s_2 + s_3), whose Hessian is -2 weight sum_{i < j} (A_ij - A_ji)^2 / (s_i + s_j)
-/// with A = U^T dF L^T V. So a star feels three numbers of a motion in each part.
+/// with A = U^T dF L^T V. So only three numbers of a motion matter to a star in each part.
 void PatchHessian::add_stars(const std::vector<Part>& parts, int star) {
   const VertexStars& stars = *parts[0].stars;
   const int first = stars.first_corner[star];
@@ -123,7 +123,7 @@ void PatchHessian::add_rotation(const Part& part, int star) {
   const VertexStars& stars = *part.stars;
   const int first = stars.first_corner[star], count = stars.first_corner[star + 1] - first;
   const double* const gradients = &stars.gradients[3 * static_cast<std::size_t>(first)];
-  Matrix F = Matrix::Zero();  // of the whole shape, since the hats sum to one
+  Matrix F = Matrix::Zero();  // map of the whole shape, since the hats sum to one
   for (std::size_t m = 0; m < touched_.size(); ++m) {
     moments_[m] = moments_of(count, gradients, &hats_[m * count]);
     F += moments_[m].bottomRows<3>();
@@ -225,7 +225,7 @@ void PatchHessian::hold_translations() {
 
 /// A patch of one or two vertices may turn without moving them.
 void PatchHessian::hold_small_patches() {
-  constexpr double kLeast = 1e-6;  // of the mean stiffness
+  constexpr double kLeast = 1e-6;  // share of the mean stiffness
   double sum = 0.0;
   for (int a = 0; a < patches_.count(); ++a)
     for (int r = 3; r < kMotions; ++r) sum += dirichlet_(kMotions * a + r, kMotions * a + r);

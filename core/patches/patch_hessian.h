@@ -13,8 +13,8 @@
 
 namespace snapspace {
 
-/// The Hessian of a surface that is as rigid as possible, or of a blended solid, for rigid motions
-/// of its patches about their centers at a shape.
+/// The Hessian of an as-rigid-as-possible surface, or of a blended solid, at a shape, with respect
+/// to rigid motions of its patches about their centers.
 class PatchHessian {
  public:
   /// @param u  the shape, displaced from the positions of the patches (3n)
@@ -27,7 +27,7 @@ class PatchHessian {
   };
   /// Adds the energy of parts, whose stars have the same corners. Weights may be negative.
   void add(const std::vector<Part>& parts);
-  /// Adds the energy of a solid at u for these weights, as far as a sample of its tets knows it.
+  /// Adds the energy of a solid at u for these weights, as estimated from a sample of its tets.
   void add(const BlendedEnergy& energy, const TetSample& sample, const double* weights,
            const double* u);
 
@@ -77,17 +77,17 @@ class PatchHessian {
 
   const RigidPatches& patches_;
   std::vector<double> positions_, centers_;
-  Square dirichlet_, rotations_;  // their parts, lower triangles; what is not Dirichlet energy
+  Square dirichlet_, rotations_;  // lower triangles: the Dirichlet energy, and the rest
   double shift_ = 3e-3;           // share of the Dirichlet energy's Hessian that is always added
-  // of a star: the patches that it touches, their hats at its corners, and what its rotation in a
-  // part feels of their motions
+  // for a star: the patches that it touches, their hats at its corners, and the effect of their
+  // motions on its rotation in a part
   std::vector<std::int32_t> touched_;
-  std::vector<int> slots_;  // of patches in these; -1
+  std::vector<int> slots_;  // place of every patch in these, or -1
   std::vector<Homogeneous> hats_;
   std::vector<Moments> moments_;
   std::vector<Eigen::Matrix<double, kMotions, 3>> felt_;
-  // of a tet: the entries of its displacement gradient for the motions of each touched patch, and
-  // what its Hessian makes of them
+  // for a tet: the entries of its displacement gradient for the motions of each touched patch, and
+  // its Hessian times these
   std::vector<MotionRows> gradients_, stresses_;
 };
 

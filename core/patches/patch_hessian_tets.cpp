@@ -7,8 +7,8 @@ namespace snapspace {
 
 namespace {
 
-/// A sample of tets does not know exactly how stiff patches are. With 0.003, 0.03, 0.06, 0.1 and
-/// 0.3 blends of the Lion take 192, 153, 143, 150 and 166 evaluations.
+/// A sample of tets gives the stiffness of patches only approximately. With 0.003, 0.03, 0.06, 0.1
+/// and 0.3, blends of the Lion take 192, 153, 143, 150 and 166 evaluations.
 constexpr double kShiftOfTets = 0.06;
 
 }  // namespace

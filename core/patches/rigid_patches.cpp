@@ -11,11 +11,11 @@ namespace snapspace {
 
 namespace {
 
-/// Fewer patches than this share of the most are worth another try.
+/// With fewer patches than this share of the maximum, another radius is tried.
 constexpr double kFew = 0.6;
 constexpr int kMaxTries = 6;
-/// The hats of stars reach far over each other. So hats below this share of the largest one at a
-/// vertex are cut off there, which leaves two of eight, and as few evaluations.
+/// The hats of stars overlap widely. Hats below this share of the largest one at a vertex are cut
+/// off there. This leaves two hats of eight, and solves take no more evaluations.
 constexpr float kNarrower = 0.5f;
 
 /// Root of the mean squared distance of the vertices from their mean.
@@ -32,8 +32,8 @@ double extent(const double* shape, int vertex_count) {
   return std::sqrt(square / vertex_count);
 }
 
-/// The hats of nearly the most patches. Their number falls with the radius: along limbs in inverse
-/// proportion, on sheets faster.
+/// The hats of nearly `most` patches. The number of patches falls with the radius: along limbs in
+/// inverse proportion, on sheets faster.
 StarHats hats_of(const double* shape, const EdgeGraph& edges, int most) {
   double radius = 0.3 * extent(shape, edges.vertices());
   StarHats best;

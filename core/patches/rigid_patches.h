@@ -8,8 +8,8 @@ namespace snapspace {
 
 /// Overlapping patches of a surface or a solid, with hat functions that sum to one at every vertex.
 /// Their rigid motions, each times its hat, are the coarse space of a two-level preconditioner
-/// [rigid motions of subdomains: Mandel 1993; partitions of unity: Sarkis 2003]: bending by smooth
-/// rotations, which costs an elastic body next to nothing, and which a scalar matrix mistakes for
+/// [rigid motions of subdomains: Mandel 1993; partitions of unity: Sarkis 2003]: they bend the body
+/// by smooth rotations, which cost almost no elastic energy but which a scalar matrix mistakes for
 /// stretching.
 class RigidPatches {
  public:
@@ -17,8 +17,8 @@ class RigidPatches {
   static constexpr int kMotions = 6;
 
   /// @param shape  3n
-  /// @param edges  with their mean lengths in all shapes: patches are as large as on average
-  /// @param most   most patches: the coarse matrix is dense
+  /// @param edges  with their mean lengths in all shapes, so that patches have their mean size
+  /// @param most   maximum number of patches, limited because the coarse matrix is dense
   RigidPatches(const double* shape, const EdgeGraph& edges, int most);
 
   [[nodiscard]] int count() const { return count_; }

@@ -18,7 +18,7 @@ std::int32_t main_patch(const RigidPatches& patches, const RestTet& tet) {
 
 }  // namespace
 
-/// Neighbours in space have numbers near each other, so that every few tets are all over a patch.
+/// Neighbours in space have indices near each other, so tets at regular intervals cover a patch.
 TetSample::TetSample(const RigidPatches& patches, const RestShape& rest) {
   std::vector<std::vector<std::int32_t>> of_patches(patches.count());
   for (std::size_t t = 0; t < rest.tets.size(); ++t)

@@ -14,7 +14,7 @@ struct TetSample {
   std::vector<double> shares;  ///< how many times a tet counts
 
   /// Tets of a patch. With half as many, blends of ten Lions end four times as far from the
-  /// minimum: the seed does not know thin limbs.
+  /// minimum, because the seed misses thin limbs.
   static constexpr int kOfPatch = 64;
 
   TetSample(const RigidPatches& patches, const RestShape& rest);

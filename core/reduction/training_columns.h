@@ -6,8 +6,8 @@ namespace snapspace {
 /// The states that a cubature is trained on, with stresses and directions in each.
 struct TrainingStates {
   int count, directions;
-  int numbers;            ///< of an element: nine, or of blended stars nine for each pose
-  const float* stresses;  ///< count x candidates x numbers, derivatives of energies by the numbers
+  int numbers;            ///< per element: nine, or nine for each pose of blended stars
+  const float* stresses;  ///< count x candidates x numbers, derivatives of the energies
   const float* along;     ///< count x dimension x directions
 };
 

@@ -89,8 +89,8 @@ inline constexpr int kRoughLanes =
 
 /// About 1 / a and 1 / sqrt(a), to at least 11 bits, for a > 0 that is neither tiny nor huge: for
 /// iterations that correct their own errors. Exact except for packs in single precision on x86,
-/// where divisions and roots of wide packs take ten times as long. The same bits in packs of every
-/// width.
+/// where divisions and roots of wide packs take ten times as long. Results are bitwise the same in
+/// packs of every width.
 inline double rough_inverse(double a) { return 1.0 / a; }
 inline double rough_inverse_sqrt(double a) { return 1.0 / std::sqrt(a); }
 

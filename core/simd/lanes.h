@@ -15,8 +15,8 @@
 
 namespace snapspace {
 
-/// Most samples that a thread solves together in double precision; in single precision twice as
-/// many.
+/// Maximum number of samples that a thread solves together in double precision; in single
+/// precision, twice as many.
 #if defined(__AVX512F__)
 inline constexpr int kWideLanes = 8;
 #elif defined(__AVX__)

@@ -5,8 +5,8 @@
 namespace snapspace {
 
 /// combined(j) = sum_i weights(j, i) rows[i] for rows that are separate arrays, in memory or in
-/// mapped files. Rows without a weight are not read. If all others are finite, no sum
-/// depends on the others, nor on the number of threads.
+/// mapped files. Rows without a weight are not read. If all other rows are finite, a sum depends
+/// neither on the other sums nor on the number of threads.
 /// @param size      length of a row
 /// @param weights   (combinations, rows)
 /// @param combined  (combinations, size)

@@ -27,8 +27,8 @@ struct PackResults {
   double* images;    ///< the gradients times the seed of the inverse Hessian
 };
 
-/// What L-BFGS asks of a pack with `count` samples, to compare packs of different widths: they must
-/// have the same bits. False if this processor's level has no such pack.
+/// What L-BFGS asks of a pack with `count` samples, for comparing packs of different widths, whose
+/// results must be bitwise the same. Returns false if this processor's level has no such pack.
 [[nodiscard]] bool evaluate_in_pack(const SampleSystem& system, PackKind kind, int count,
                                     const double* inputs, const double* shapes,
                                     const PackResults& results);

@@ -12,13 +12,14 @@ namespace snapspace {
 
 namespace {
 
-/// Most patches of a surface: of the Centaur 30, 60 and 100 leave 34, 29 and 27 evaluations of a
-/// sample.
+/// Maximum number of patches of a surface. With 30, 60 and 100, a sample of the Centaur takes 34,
+/// 29 and 27 evaluations.
 constexpr int kMostPatches = 64;
-/// Most patches of a solid: with 64 patches blends take as many evaluations and longer seeds.
+/// Maximum number of patches of a solid. With 64, blends take as many evaluations, and seeds take
+/// longer.
 constexpr int kMostPatchesOfSolids = 32;
-/// Solids of fewer tets have no patches. A seed takes 2 ms for any number of tets; of 8,000 tets a
-/// blend takes 23 ms with patches and 17 without.
+/// Solids with fewer tets have no patches. A seed takes 2 ms for any number of tets; with 8,000
+/// tets, a blend takes 23 ms with patches and 17 ms without.
 constexpr std::size_t kFewTets = 20'000;
 
 /// Edges between the corners of each triangle or tet, with their mean lengths in the poses.
@@ -32,7 +33,7 @@ EdgeGraph edges_of(const RestShape& rest, const std::vector<double>& poses, int 
           corners};
 }
 
-/// Of a shell: the mean of those at rest in the poses, each at its mean weight.
+/// The matrix of a shell: the mean of the matrices at rest in the poses, each at its mean weight.
 Eigen::SparseMatrix<double> shell_matrix(const BlendedEnergy& energy,
                                          const std::vector<double>& weights) {
   const int poses = energy.poses();
@@ -120,7 +121,7 @@ class InterpolationObjective final : public LaneObjective<Real> {
   const InterpolationSystem& system_;
   int threads_;
   std::vector<Real> blend_;
-  std::vector<Real> second_half_;  // of the gradient
+  std::vector<Real> second_half_;  // second half of the gradient
   Scratch scratch_;
 };
 

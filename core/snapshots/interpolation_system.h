@@ -14,9 +14,9 @@ namespace snapspace {
 /// of a sample are its weights.
 /// F does not change under rigid motions. Its gradient is orthogonal to translations and rotations
 /// of the shape, so the iterates drift along them only by rounding, and callers register the
-/// results. The null space of the scalar matrix is the translations. It is made regular at one
-/// vertex: for right-hand sides that sum to zero, as gradients do, that changes the solution only
-/// by a translation.
+/// results. The null space of the scalar matrix consists of the translations. The matrix is made
+/// regular at one vertex: for right-hand sides that sum to zero, as gradients do, that changes the
+/// solution only by a translation.
 class InterpolationSystem final : public SampleSystem {
  public:
   std::shared_ptr<const BlendedEnergy> energy;  ///< shared by the systems made by `adapted`
@@ -29,8 +29,8 @@ class InterpolationSystem final : public SampleSystem {
 
   /// The same problem with an inverse for solutions near the given shapes (count x 3n, internal
   /// displacements): that of the mean of their scalar Hessians, each at its weights (count x
-  /// poses). Poses that stretch a tet much make it stiff; an inverse that accounts for it needs a
-  /// quarter of the iterations.
+  /// poses). Poses that stretch a tet much make it stiff; with an inverse that accounts for this,
+  /// solves take a quarter of the iterations.
   [[nodiscard]] InterpolationSystem adapted(const std::vector<double>& shapes,
                                             const std::vector<double>& weights) const;
 
@@ -58,7 +58,7 @@ class InterpolationSystem final : public SampleSystem {
  private:
   struct Patches {  // shared like the energy; null if there are none
     std::shared_ptr<const RigidPatches> rigid;
-    std::shared_ptr<const TetSample> tets;  // of solids
+    std::shared_ptr<const TetSample> tets;  // for solids
   };
   struct Seed {
     Patches patches;

@@ -36,11 +36,11 @@ struct Lane {
   int evaluations = 0;
   int shortenings = 0;
   double value = 0.0;
-  double norm = 0.0;   // of the gradient
+  double norm = 0.0;   // norm of the gradient
   double scale = 1.0;  // A^-1 is applied to the next gradient divided by this
   double slope = 0.0;  // gradient . direction, negative
   double step = 1.0;
-  double decreases[kWindow] = {};     // of the last accepted steps
+  double decreases[kWindow] = {};     // decreases in the last accepted steps
   double directions[kSettling] = {};  // lengths of the last steps, as if all were full
   double displacement = 0.0;          // its length
   double path = 0.0;                  // length of the steps since the seed was made
@@ -104,7 +104,7 @@ struct Lane {
     return result;
   }
 
-  /// Whether the sample has moved so far from where its seed was made that another one pays.
+  /// Whether the sample has moved so far from where its seed was made that a new seed pays.
   [[nodiscard]] bool needs_seed() const {
     return seed && iterations >= next_seed && path > kMoved * displacement;
   }

@@ -68,8 +68,7 @@ class LaneLbfgs {
  private:
   template <LbfgsMemory, class>
   friend class LaneLbfgs;
-  /// Half as wide: for the last samples, when half of the lanes would be empty. Its results have
-  /// the same bits.
+  /// Half as wide: when half of the lanes would be empty. Results are bitwise the same.
   using Half = LaneLbfgs<memory, Pack<typename Real::Scalar, std::max(2, kWidth / 2)>>;
 
   static constexpr int kPairs = memory.pairs;
@@ -145,7 +144,7 @@ class LaneLbfgs {
     set_seed(*objective_, index, lane, lane.sample->start);
   }
 
-  /// Evaluates all lanes once and takes the consequences. Returns false if the control cancels; it
+  /// Evaluates all lanes once and acts on the results. Returns false if the control cancels; it
   /// is checked between the parts, which take a while on large meshes.
   bool step(const SolveControl& control) {
     if (control.cancelled) return false;
@@ -266,14 +265,14 @@ class LaneLbfgs {
     if (!lane.done && lane.needs_seed()) renew_seed(index);
   }
 
-  /// Continues with a seed made at a lane's trial. The memory belongs to the old one.
+  /// Continues with a seed made at a lane's trial. The memory belongs to the old seed.
   void renew_seed(int index) {
     set_seed(*objective_, index, lanes_[index], lane_of(trial_, index));
     pairs_[index].forget();
     lanes_[index].fresh = true;
   }
 
-  /// Rounding gave an ascent direction: forgets the memory. If the gradient ascends, it is noise.
+  /// Rounding gave an ascent direction: forgets the memory. The second time, the gradient is noise.
   void restart(int index) {
     if (lanes_[index].restarted) return lanes_[index].finish(SolveStatus::line_search_failed);
     lanes_[index].restarted = true;
@@ -289,7 +288,7 @@ class LaneLbfgs {
   Vectors vectors_;
   Pairs pairs_[kWidth];
   Lane lanes_[kWidth];
-  TrialOutcome trial_outcomes_[kWidth];  // of the last trials
+  TrialOutcome trial_outcomes_[kWidth];  // outcomes of the last trials
   bool pending_ = false;  // whether the vectors still need the update for these outcomes
   Total scale_ = 1.0;     // A^-1 gradient = scale_ * single_gradient() at the last trials
   Total steps_ = 0.0;     // to the trials, as shares of the directions

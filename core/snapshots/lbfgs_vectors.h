@@ -33,8 +33,8 @@ class LbfgsVectors {
     Total gradient_square{0.0}, images[kPairs];
     Total newest{0.0};                ///< with the step that leads to the trial
     std::array<Total, kSteps> steps;  ///< with the steps before
-    Total step_square{0.0};           ///< of the newest step
-    Total trial_square{0.0};          ///< of the displacement at the trial
+    Total step_square{0.0};           ///< squared length of the newest step
+    Total trial_square{0.0};          ///< squared length of the displacement at the trial
     Products() {
       for (Total& sum : steps) sum = 0.0;
       for (Total& sum : images) sum = 0.0;
@@ -109,7 +109,7 @@ class LbfgsVectors {
     [[no_unique_address]] std::array<Single, kSteps> steps{};
   };
 
-  /// In the precision of shapes.
+  /// A pack in the precision of shapes.
   template <class T>
   static Real narrowed(Pack<T, kWidth> a) {
     return cast<typename Real::Scalar>(a);

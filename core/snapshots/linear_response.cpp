@@ -36,8 +36,8 @@ ResponseSums quotient(ResponseSums a, ResponseSums b) {
 }
 
 /// A power of two near the largest force of each input, by which its forces are divided and its
-/// response is multiplied. The energies of unit motions leave single precision in units of length
-/// that are far from the body's size; no digit changes.
+/// response is multiplied. If the unit of length is far from the body's size, the energies of unit
+/// motions leave the range of single precision. Powers of two change no digits.
 double unit_of(const PosingSystem& system, const double* input) {
   double largest = 0.0;
   for (std::size_t k = 0; k < system.pinned.size(); ++k)

@@ -56,7 +56,7 @@ class MassProducts::Blocks {
   ScalarRows mass_;
   std::size_t breadth_ = 0;           // number of others, padded with some of any content
   StreamedVector<Block> weighted_;    // M times the others: vertices first, then others
-  StreamedVector<GroupPack> points_;  // of eight of the others
+  StreamedVector<GroupPack> points_;  // points of eight of the others
 };
 
 MassProducts::MassProducts(const ScalarRows& mass) : blocks_(std::make_unique<Blocks>(mass)) {}

@@ -11,7 +11,8 @@ struct LbfgsMemory {
   bool scaled;  ///< whether the newest pair scales the seed (Nocedal & Wright 2006, eq. 7.20)
 };
 
-/// For problems with short solves, and with long ones; see PosingSystem and InterpolationSystem.
+/// Memories for problems with short solves and with long ones; see PosingSystem and
+/// InterpolationSystem.
 inline constexpr LbfgsMemory kShortMemory{.pairs = 1, .scaled = true};
 inline constexpr LbfgsMemory kLongMemory{.pairs = 4, .scaled = false};
 

@@ -7,7 +7,7 @@
 namespace snapspace {
 
 /// Solves the samples of an exchange by L-BFGS, one sample per lane, on the caller's thread.
-/// @param width    most samples in a pack; the widest pack of this build within it is used
+/// @param width    maximum number of samples in a pack; the widest such pack of this build is used
 /// @param threads  number that the objective may use
 template <LbfgsMemory memory>
 void run_lanes(const LaneObjectives& objectives, int width, const SolveOptions& options,

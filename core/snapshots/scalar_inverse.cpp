@@ -12,9 +12,9 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-/// Least eigenvalue of cycle * A with which the cycle is used. Bodies filled with regular tets have
-/// 0.35 to 0.45: their samples take a tenth more evaluations than with the factor, and the first
-/// ones, from rest, a quarter more. With 0.25 and less they take twice as many.
+/// Smallest eigenvalue of cycle * A with which the cycle is used. Bodies filled with regular tets
+/// have 0.35 to 0.45: their samples take a tenth more evaluations than with the factor, and the
+/// first ones, from rest, a quarter more. With 0.25 and less they take twice as many.
 constexpr double kMinEigenvalue = 0.3;
 
 }  // namespace

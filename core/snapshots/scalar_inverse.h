@@ -52,7 +52,7 @@ class ScalarInverse {
 
   void make_cycle(const Eigen::SparseMatrix<double>& A);
 
-  std::shared_ptr<const Supernodes> supernodes_;  // of the factor
+  std::shared_ptr<const Supernodes> supernodes_;  // supernodes of the factor
   std::optional<ScalarFactor> factor_;
   std::optional<TwoGridCycle> cycle_;
   std::optional<double> lowest_;

@@ -11,7 +11,7 @@ class LaneObjectives;
 
 /// What is added to the inverse of the scalar matrix: soft modes that all samples share, or the
 /// inverse Hessian of each sample on a coarse space, or else on the system's patches, if it has
-/// any. With a coarse space the input of a sample is that of the system and after it this inverse,
+/// any. With a coarse space, the input of a sample is that of the system followed by this inverse,
 /// see `on_two_levels`.
 struct LowRankSeed {
   const SoftModes* modes = nullptr;

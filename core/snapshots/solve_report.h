@@ -29,7 +29,7 @@ struct SolveOptions {
   /// the displacement, in the norm of the lumped masses; 0: never.
   double settling = 0.0;
   int max_iterations = 500;
-  int lanes = 16;       ///< most samples in a pack
+  int lanes = 16;       ///< maximum number of samples in a pack
   bool single = false;  ///< packs in single precision
   int threads = 0;      ///< 0: as many as the machine has
 };

@@ -6,8 +6,8 @@ namespace snapspace {
 
 /// Shapes near the solutions for large motions of the handles, without a nonlinear solve.
 /// Combinations of linear responses shear where they should rotate. So rotation_strain gives the
-/// wanted deformation of each tet, and the shape is the one with the nearest deformations, in the
-/// norm of the scalar matrix, with the handles at their targets.
+/// target deformation of each tet, and the shape is the one whose deformations are nearest to the
+/// targets, in the norm of the scalar matrix, with the handles at their targets.
 /// Up to the accuracy of the responses it is exact for a rigid motion of all handles, and the error
 /// is of second order in small motions. With a multigrid cycle instead of the inverse the nearest
 /// shape is found to a few percent.

@@ -14,7 +14,7 @@ FloatArray = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
-#: Least volume over the cube of the root mean square edge; 0.118 for a regular tet.
+#: Smallest volume over the cube of the root mean square edge; 0.118 for a regular tet.
 FLATTEST = 0.015
 
 

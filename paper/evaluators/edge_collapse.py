@@ -21,7 +21,7 @@ Integers = NDArray[np.int64]
 SURFACE = 10.0
 #: Collapses that are tested together, as a share of all vertices; at least the second number.
 TRIED, LEAST_TRIED = 0.5, 2000
-#: An interior collapse removes about so many tets.
+#: An interior collapse removes about this many tets.
 REMOVED = 6
 
 
@@ -40,7 +40,7 @@ class CoarseMesh:
 def coarse_meshes(
     mesh: ss.TetMesh, sizes: Sequence[int], *, poses: FloatArray | None = None
 ) -> Iterator[CoarseMesh]:
-    """Meshes with at most so many tets, for descending sizes; the same for the same input.
+    """Meshes with at most these numbers of tets, descending; the same for the same input.
 
     A collapse removes a vertex and pulls its tets to a neighbour. It is done where no tet inverts
     or becomes a sliver, where the topology stays, and on the surface only along it. Short edges
@@ -70,7 +70,7 @@ def coarse_meshes(
 
 
 def _round(shapes: FloatArray, tets: Integers, quadrics: FloatArray, size: int) -> Integers:
-    """The tets after independent collapses, until there are about so many."""
+    """The tets after independent collapses, until there are about `size` of them."""
     count = shapes.shape[1]
     edges = TetEdges.of_mesh(tets, count)
     ends = np.concatenate([edges.ends, edges.ends[:, ::-1]])  # from the removed vertex

@@ -16,7 +16,7 @@ from snapspace.reduction import Cubature, HandleQuadric
 FloatArray = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-#: Clusters are found among so many tets and in so many directions; the others join the nearest.
+#: Clusters are found among this many tets in this many directions; the others join the nearest.
 TRIED, DIRECTIONS, ITERATIONS = 20_000, 16, 20
 
 

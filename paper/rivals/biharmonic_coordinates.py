@@ -38,12 +38,12 @@ def biharmonic_subspace(problem: ss.PosingProblem, dimension: int) -> ss.AffineS
 def biharmonic_coordinates(
     mesh: ss.TetMesh, points: NDArray[Any], handles: Sequence[NDArray[Any]]
 ) -> FloatArray:
-    """Weights (n, k + 4 h): what a unit of each point's value, or of a handle's affine function,
-    is in all vertices.
+    """Weights (n, k + 4 h): the values at all vertices that follow from a unit value at each point,
+    or from each affine function of a handle.
 
-    They minimise the squared Laplacian with natural boundary conditions, which linear functions do
-    not feel: what is linear on points and handles is linear everywhere, and the weights of points
-    add up to one with those of the handles' constants.
+    They minimise the squared Laplacian with natural boundary conditions, under which linear
+    functions have no energy: what is linear on points and handles is linear everywhere, and the
+    weights of points add up to one with those of the handles' constants.
     """
     size = len(mesh.vertices)
     values = np.zeros((size, len(points) + 4 * len(handles)))

@@ -1,4 +1,4 @@
-"""Linear response modes: what the body at rest answers to affine motions of its handles."""
+"""Linear response modes: responses of the body at rest to affine motions of its handles."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ def modal_subspace(
 ) -> ss.AffineSubspace:
     """The subspace of modes and modal derivatives; for several poses those of all of them.
 
-    Handles are not seen, as in the paper (sec. 7). A body that is posed gives its six rigid motions
+    Handles are ignored, as in the paper (sec. 7). A body that is posed gives its six rigid motions
     first, which are eigenvectors too: without them errors are twice as large. Poses to blend are
     registered, and give none. Half of the rest are the softest modes, and the others derivatives,
     those of the softest pairs first: of 40 and 86 dimensions about twice as good on generated

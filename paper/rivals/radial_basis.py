@@ -18,8 +18,8 @@ WIDTH = 1.0
 def radial_basis_subspace(problem: ss.PosingProblem, dimension: int) -> ss.AffineSubspace:
     """x, y and z of one normalised Gaussian for each third of the dimension, on farthest points.
 
-    The paper says no more than that Gaussians are isotropic and of distances in the embedding
-    space. Here they add up to one in each vertex, so that translations are in the subspace.
+    The paper says only that Gaussians are isotropic and use distances in the embedding space. Here
+    they add up to one in each vertex, so that translations are in the subspace.
     """
     vertices = problem.mesh.vertices
     points = farthest_points(vertices, dimension // 3)

@@ -15,8 +15,8 @@ FloatArray = NDArray[np.float64]
 class SparseSolver:
     """Factors a symmetric positive definite matrix once and solves with it.
 
-    SciPy's SuperLU without pivoting. Its own orderings fill the factors of tet meshes several times
-    as much as nested dissection of the vertices does.
+    SciPy's SuperLU without pivoting. Its own orderings cause several times as much fill-in on tet
+    meshes as nested dissection of the vertices.
 
     Parameters
     ----------

@@ -36,7 +36,7 @@ class Vibrations:
     rigid : (3n, 6) M-orthonormal infinitesimal rigid motions
     modes : (3n, m), softest first
     eigenvalues : (m,), ascending
-    solver : of K + s M with a small shift s, by which K becomes definite
+    solver : solver for K + s M, with a small shift s that makes it definite
     """
 
     energy: core.ElasticEnergy
@@ -51,7 +51,7 @@ class Vibrations:
 def vibrations(
     energy: core.ElasticEnergy, mass: csr_array, vertices: FloatArray, count: int
 ) -> Vibrations:
-    """The `count` softest modes of a body with this energy at rest; handles are not seen.
+    """The `count` softest modes of a body with this energy at rest; handles are ignored.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def vibrations(
 
 @dataclass(frozen=True)
 class _Matrix:
-    """A matrix that is known by its entries, so that its factor is found again."""
+    """A matrix compared by its entries, so that its factor is found in the cache."""
 
     digest: str
     content: csr_array = field(compare=False, repr=False)
@@ -100,12 +100,12 @@ class _Matrix:
 
 @lru_cache(maxsize=1)
 def _solver(matrix: _Matrix) -> SparseSolver:
-    """The factor of a body, which all subspaces of it share: it takes longer than their modes."""
+    """The factor of a body, shared by its subspaces because it takes longer than their modes."""
     return SparseSolver(matrix.content, per_vertex=3)
 
 
 def forget_factors() -> None:
-    """Lets the next subspace factor its body again, so that its time is the whole time."""
+    """Lets the next subspace factor its body again, so that its time includes that."""
     _solver.cache_clear()
 
 

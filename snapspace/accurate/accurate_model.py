@@ -43,6 +43,10 @@ class AccurateModel(Generic[ModelOf]):
     target: float
     most_samples: int
 
+    def __repr__(self) -> str:
+        missed = "" if self.reached else f", misses its target of {100 * self.target:.2g} %"
+        return f"AccurateModel({self.step}{missed}, {self.model!r})"
+
     @property
     def reached(self) -> bool:
         """Whether the error is below the target."""

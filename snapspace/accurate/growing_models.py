@@ -40,6 +40,11 @@ class Growth:
     seconds: float
     final: bool
 
+    def __repr__(self) -> str:
+        what = self.step or "first impression"
+        last = ", final" if self.final else ""
+        return f"Growth({what}, {self.seconds:.3g} s{last}, {self.model!r})"
+
 
 def growing_models(
     problem: PosingProblem | InterpolationProblem,

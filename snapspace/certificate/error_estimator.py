@@ -59,6 +59,11 @@ class ErrorEstimator:
                 "model again"
             )
 
+    def __repr__(self) -> str:
+        thorough = "" if self.movement_ratios is None else ", also for polished ones"
+        frames = f"{len(self.coordinates)} frames"
+        return f"ErrorEstimator(dimension {self.dimension}, calibrated with {frames}{thorough})"
+
     @property
     def dimension(self) -> int:
         """d of the calibrated model."""

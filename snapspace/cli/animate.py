@@ -49,9 +49,9 @@ def animate(
 ) -> None:
     """Solve a timeline, as the page saves it, and write its frames.
 
-    Without a file, the timeline that was saved with the model is used. Every frame is solved;
-    shapes are not interpolated. In a folder, --format vtu also writes frames.vtu.series, which
-    ParaView opens with the times.
+    Without a file, the timeline is the one that was saved with the model. Every frame is solved;
+    shapes are not interpolated. In a folder, --format vtu also writes
+    frames.vtu.series, which ParaView opens with the times.
 
     \b
     Examples:

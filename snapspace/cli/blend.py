@@ -67,7 +67,7 @@ EVEN = ("shape", "weights")
     type=FILE,
     metavar="FILE|DIR",
     help="Surface as .obj, .ply, .off, .stl, .glb, or all tets as .msh, .vtu, .vtk, .mesh. In the "
-    "format of the first pose's surface (also .gltf), it is that file with other positions. With "
+    "format of the first pose's surface (also .gltf), it is that file with new positions. With "
     "--path a folder, a film as .gif or .mp4, or an animated mesh as .glb.",
 )
 @path_options

@@ -40,7 +40,7 @@ DIMENSION = 40
 @click.option(
     "-o", "--output", type=FILE, required=True, metavar="M.snapspace", help="Model file to write."
 )
-@target_option(MOTIONS.target, error="Median error of unseen motions", deciding=MOTIONS_DECIDING)
+@target_option(MOTIONS.target, error="Median error on unseen motions", deciding=MOTIONS_DECIDING)
 @click.option(
     "--from",
     "from_file",
@@ -92,7 +92,7 @@ def build(
 ) -> None:
     """Build a model: solve the samples, find the subspace, precompute the reduced energy.
 
-    Samples and dimension follow from the error of unseen motions, see --target-error, unless you
+    Samples and dimension follow from the error on unseen motions, see --target-error, unless you
     give them. MESH, tets or a surface, replaces the mesh that the problem file names. A surface is
     filled with tets, or with --shell becomes a thin shell. Ctrl-C keeps the finished samples beside
     the model; the same command resumes from there.

@@ -38,7 +38,7 @@ def check(ctx: click.Context, /, file: Path, output: Path | None, as_json: bool)
     """Say what is wrong with a surface, what it means, and what to do.
 
     The exit code is 0 if nothing needs mending, and 1 otherwise; with --fix it is that of the
-    mended surface. Tet meshes are checked as by `info`.
+    mended surface. A tet mesh is checked as in `info`.
 
     \b
     Examples:

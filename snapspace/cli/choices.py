@@ -222,9 +222,9 @@ def _options(
         click.option(
             "--settling",
             type=SHARE_OR_NONE,
-            help="Converged if 8 directions as long as the last 4 together are below this share of "
-            "the displacement [default: 0.01 for an exact energy of posing without --tolerance, "
-            "otherwise 0: never].",
+            help="Converged if 8 steps as long as the last 4 directions would together be shorter "
+            "than this share of the displacement [default: 0.01 for an exact energy of posing "
+            "without --tolerance, else 0: never].",
         ),
         click.option(
             "--max-iterations",

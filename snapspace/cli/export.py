@@ -33,14 +33,14 @@ from .units import in_bytes
     "--blender",
     type=FILE,
     metavar="FILE",
-    help="The .py file to write: a script that makes the modes shape keys of your mesh in Blender.",
+    help="The .py file to write: a script that makes shape keys of the modes in Blender.",
 )
 @click.option(
     "--packed",
     type=FILE,
     metavar="FILE",
-    help="The .snapspace file to write: the model as the web component <snapspace-viewer> "
-    "needs it.",
+    help="The .snapspace file to write: the part of the model that the web component "
+    "<snapspace-viewer> needs.",
 )
 @click.option(
     "--targets",
@@ -69,8 +69,8 @@ def export(
 
     The page needs no network and no server: mail it, or publish it with a paper. --dimension makes
     it smaller. --packed writes the model alone, for the web component <snapspace-viewer> in your
-    own page. A glTF file has the model's modes as morph targets, and --blender makes them shape
-    keys; `snapspace pose --path N -o FILE.glb` writes an animation.
+    own page. The shapes of a glTF file are sums of its morph targets, and --blender makes shape
+    keys of the same targets; `snapspace pose --path N -o FILE.glb` writes an animation.
 
     \b
     Examples:

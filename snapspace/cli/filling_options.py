@@ -38,8 +38,8 @@ def filling_options(command: Command) -> Command:
         click.option(
             "--exact",
             is_flag=True,
-            help="Fill surfaces with fTetWild, which keeps sharp edges but takes up to some "
-            "minutes, not seconds.",
+            help="Fill surfaces with fTetWild, which keeps sharp edges but takes up to a few "
+            "minutes instead of seconds.",
         ),
         edge_length_option(default="0.025, with --exact 0.02"),
     ):

@@ -82,7 +82,7 @@ SAMPLES, DIMENSION = 40, 30
     help="Enlarge the sampled simplex by this share.",
 )
 @material_options
-@target_option(BLENDS.target, error="Mean error of unseen blends", deciding=BLENDS_DECIDING)
+@target_option(BLENDS.target, error="Mean error on unseen blends", deciding=BLENDS_DECIDING)
 @click.option(
     "--cubature-tets",
     type=TET_COUNT,
@@ -123,10 +123,10 @@ def interpolate(
 
     Poses are surfaces (.obj, .off, .ply) with the same faces, or tet meshes (.mesh, .msh, ...) with
     the same tets; vertex i of all poses is the same point of the object. Each pose may have its own
-    frame. Surfaces are filled with tets in the first pose, and the tets are fitted to the others.
-    With --shell the surfaces themselves are blended, open or closed.
+    frame. Surfaces are filled with tets in the first pose, and the tets are fitted to the others;
+    with --shell they are blended as they are, even if they are open.
 
-    Samples and dimension follow from the error of unseen blends (--target-error), unless given.
+    Samples and dimension follow from the error on unseen blends (--target-error), unless given.
 
     Ctrl-C keeps finished poses and samples beside the model; the same command resumes.
 

@@ -117,8 +117,8 @@ def up_option(command: Command) -> Command:
     return click.option(
         "--up",
         type=click.Choice(["x", "y", "z"]),
-        help="Axis that points up; coordinates stay [default: that of the model or problem, else "
-        "y for .obj, .glb and .gltf, z for others].",
+        help="Axis that points up; coordinates do not change [default: that of the model or "
+        "problem, else y for .obj, .glb and .gltf, z for others].",
     )(command)
 
 
@@ -129,7 +129,7 @@ def shell_option(command: Command) -> Command:
         "thickness",
         type=click.FloatRange(min=0, min_open=True),
         metavar="THICKNESS",
-        help="Make a surface a thin shell of this thickness, in its unit of length, instead of "
-        "filling it. The surface may be open. The thickness determines how it bends, except with "
-        "the default material arap, as rigid as possible.",
+        help="Treat a surface as a thin shell of this thickness, in its unit of length, instead of "
+        "filling it. It may be open. The thickness is only a factor with the default material, "
+        "arap, which is as rigid as possible; with others it determines the bending.",
     )(command)

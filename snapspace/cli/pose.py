@@ -49,7 +49,7 @@ from .write_frames import handle_colors, write_frames
     type=FILE,
     metavar="FILE",
     help="Surface as .obj, .ply, .off, .stl, .glb, or all tets as .msh, .vtu, .vtk, .mesh. In the "
-    "format of the surface that the model was made from (also .gltf), it is that file with other "
+    "format of the surface that the model was made from (also .gltf), it is that file with new "
     "positions. With --path a folder, a film as .gif or .mp4, or an animated mesh as .glb.",
 )
 @click.option(
@@ -165,8 +165,12 @@ def _check_finite(reports: Sequence[FrameReport]) -> None:
 
 
 def _notice_beyond(problem: PosingProblem, parameters: NDArray[np.float64]) -> None:
+    first = problem.handles.names[0]
     for name in beyond_domain(problem, parameters):
-        notice(f"notice: '{name}' moves farther than the samples did; the shape may be poor")
+        notice(
+            f"notice: '{name}' moves farther, relative to '{first}', than the samples did; the "
+            "shape may be poor"
+        )
 
 
 def _check_outputs(output: Path | None, png: Path | None) -> None:

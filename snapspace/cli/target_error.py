@@ -54,8 +54,8 @@ def target_option(
             default=default,
             show_default=True,
             metavar="SHARE",
-            help=f"{error}. Determines samples and dimension, unless one of {words} is given or "
-            "the material is stvk.",
+            help=f"{error}. It decides samples and dimension if none of {words} is given, except "
+            "for stvk.",
         )(command)
 
     return add

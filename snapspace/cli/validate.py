@@ -60,7 +60,7 @@ Model = PosingModel | InterpolationModel
     "--plot",
     type=FILE,
     metavar="FILE.png",
-    help="Picture of the error over the dimension and over milliseconds, with the same full "
+    help="Plot of the error against the dimension and against milliseconds, with the same full "
     "solutions for all dimensions.",
 )
 @leading_option
@@ -82,8 +82,9 @@ def validate(
 
     \b
     Errors are relative, in the mass norm: |reduced - full| / |full - rest|. The projection error is
-    the least that the subspace allows. A frame is a solve from rest and all vertices. If the median
-    error is more than three times that of the projections, the next better option is named.
+    the smallest that the subspace allows. The time of a frame is that of a solve from rest and of
+    all vertices. If the median error is more than three times that of the projections, advice for
+    a better model is printed.
 
     \b
     Examples:

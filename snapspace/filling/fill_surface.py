@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..mesh import TetMesh, repair_tets, tet_volumes
 from ..mesh.components import tet_components
+from ..point_text import point_text
 from .closed_input import check_share, closed_input
 from .ftetwild import ftetwild
 
@@ -106,10 +107,10 @@ def _check_one_solid(vertices: NDArray[np.float64], tets: NDArray[np.int32]) -> 
         second = solid == np.argsort(-share)[1]
         middles = vertices[tets[second]].mean(axis=1)
         center = np.average(middles, axis=0, weights=volumes[second])
-        around = ", ".join(f"{x:.4g}" for x in center)
+        around = point_text(center, float(np.linalg.norm(np.ptp(vertices, axis=0))))
         percent = 100 * np.sort(share)[-2]
         raise ValueError(
             f"fill_surface: the tets form {solids} separate solids (the second largest: "
-            f"{percent:.2g} % of the volume around ({around})), but one is needed; join them "
+            f"{percent:.2g} % of the volume around {around}), but one is needed; join them "
             "or remove all but one, or lower the tolerance if a thin bridge was lost"
         )

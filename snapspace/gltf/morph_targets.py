@@ -39,6 +39,11 @@ class MorphTargets:
     error: float
     drawn: DrawnSurface
 
+    def __repr__(self) -> str:
+        targets, vertices = self.targets.shape[:2]
+        sizes = f"{targets} targets, {vertices} vertices, {len(self.weights)} shapes"
+        return f"MorphTargets({sizes}, error {self.error:.3g})"
+
 
 def mode_targets(model: ReducedModel, shapes: ArrayLike | None = None) -> MorphTargets:
     """All modes of a model as targets: exactly tau + U q on the surface.

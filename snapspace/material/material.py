@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
+from ..arguments import require_type
 from .moduli import checked_modulus, lame_of_young
 
 FloatArray = NDArray[np.float64]
@@ -82,6 +83,8 @@ class Material(ABC):
 
     def with_moduli(self: Own, moduli: Mapping[str, Any]) -> Own:
         """The material with other moduli, by name, and the same settings."""
+        cure = "give a mapping from names to numbers, such as {'lam': 2.0, 'mu': 0.8}"
+        require_type(type(self).__name__, "moduli", moduli, Mapping, cure)
         return type(self)(**moduli, **self.settings)
 
     @classmethod

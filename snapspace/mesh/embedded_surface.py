@@ -102,8 +102,9 @@ class EmbeddedSurface:
         return nearest
 
     def following(self, vertices: ArrayLike) -> NDArray[np.intp]:
-        """The surface vertices whose `nearest` is one of these tet vertices, ascending."""
-        return np.flatnonzero(np.isin(self.nearest, vertices))
+        """The surface vertices that follow one of these tet vertices most, ascending."""
+        wanted = as_numbers("EmbeddedSurface", "vertices", vertices)
+        return np.flatnonzero(np.isin(self.nearest, wanted))
 
     def is_boundary(self, mesh: Body) -> bool:
         """Whether this is `boundary_surface(mesh)`."""

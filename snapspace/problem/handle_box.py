@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arguments import as_arrays, is_whole, require_count, shown, wrong_type
+from ..arguments import as_arrays, is_whole, require_count, require_type, shown, wrong_type
 
 FloatArray = NDArray[np.float64]
 Vector = tuple[float, float, float]
@@ -65,6 +65,7 @@ class HandleBox:
             )
         if not is_whole(self.moving):
             raise wrong_type("HandleBox", "moving", self.moving, "give a whole number")
+        object.__setattr__(self, "moving", int(self.moving))
         if self.moving < 1:
             raise ValueError(
                 f"HandleBox: moving is {self.moving}, but at least one handle must move"
@@ -117,6 +118,9 @@ class HandleBox:
         ValueError
             If all remaining bounds are zero.
         """
+        for names, value in (("old", old), ("new", new)):
+            cure = "give the names of the moving handles"
+            require_type("HandleBox", names, value, Sequence, cure)
         common = self.common
         if common is self:
             return replace(self, moving=len(new))

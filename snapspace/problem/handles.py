@@ -28,6 +28,14 @@ class Handle:
     vertices: IndexArray
     mask_length: int | None = field(default=None, repr=False)
 
+    def __post_init__(self) -> None:
+        require_type("Handle", "name", self.name, str, "give a name")
+        cure = "give an array of vertex indices; Handles takes lists and masks"
+        require_type("Handle", "vertices", self.vertices, np.ndarray, cure)
+
+    def __repr__(self) -> str:
+        return f"Handle({self.name}: {len(self.vertices)} vertices)"
+
     def check_in(self, count: int, *, what: str = "mesh") -> None:
         """ValueError unless the handle fits a mesh, or the named object, of `count` vertices."""
         if self.mask_length not in (None, count):

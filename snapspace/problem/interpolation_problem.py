@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from .. import _core as core
+from ..arguments import as_numbers
 from ..energy import PoseEnergies, ShellMaterial, is_of_stars
 from ..interruptible import run_abandonable
 from ..material import Material, checked_material, default_material
@@ -217,6 +218,7 @@ class InterpolationProblem:
 
     def registered(self, displacements: FloatArray) -> FloatArray:
         """Displacements (k, 3n) of the same shapes after registration to the mean shape."""
+        displacements = as_numbers("InterpolationProblem", "displacements", displacements)
         moved = registered(displacements + self.base, self.tau, self._mean_mass)
         moved -= self.base
         return moved

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 from scipy.spatial.transform import Rotation
 
-from ..arguments import as_numbers
+from ..arguments import as_numbers, require_positive
 from ..blas import single_threaded_blas
 from ..mesh import check_mass, shape_or_rows
 
@@ -26,11 +26,20 @@ class RigidMotion:
     rotation : (3, 3) R, orthogonal with determinant 1
     translation : (3,) t
     scale : float, default 1; positive
+
+    Raises ValueError for other shapes or a scale that is not positive.
     """
 
     rotation: FloatArray
     translation: FloatArray
     scale: float = 1.0
+
+    def __post_init__(self) -> None:
+        for name, shape in (("rotation", (3, 3)), ("translation", (3,))):
+            found = as_numbers("RigidMotion", name, getattr(self, name)).shape
+            if found != shape:
+                raise ValueError(f"RigidMotion: {name} must be {shape}, got {found}")
+        require_positive("RigidMotion", "scale", self.scale)
 
     @single_threaded_blas
     def apply(self, shape: ArrayLike) -> FloatArray:

@@ -237,6 +237,8 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         It estimates sqrt(g^T D^-1 g), see `ResidualSample`. After the first call with a sample, the
         cost does not grow with the mesh.
         """
+        cure = "give a ResidualSample"
+        require_type("residual", "sample", sample, ResidualSample, cure)
         if self._probe is None or self._probe[0] is not sample:
             model = self.model
             self._probe = sample, residual_probe(model.problem, model.subspace, sample)

@@ -48,6 +48,11 @@ class Predictions:
     basis: FloatArray | None = None
     inverses: FloatArray | None = None
 
+    def __repr__(self) -> str:
+        count, size = self.displacements.shape
+        known = "" if self.basis is None else f", Hessians of dimension {self.basis.shape[1]}"
+        return f"Predictions({count} samples, {size // 3} vertices{known})"
+
     def __post_init__(self) -> None:
         for name in ("displacements", "basis", "inverses"):
             kinds, cure = np.ndarray | None, "give an array"

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from .. import _core as core
-from ..arguments import as_numbers, is_whole, require_type, wrong_type
+from ..arguments import as_numbers, require_dimension, require_type
 from ..blas import single_threaded_blas
 from ..displacements import DisplacementRows, shared_mass
 from ..mesh import apply_mass, shape_or_rows
@@ -60,7 +60,8 @@ class AffineSubspace:
 
         ValueError unless the dimension is a whole number from 1 to that of the subspace.
         """
-        check_dimension(dimension, self.dimension)
+        cure = "a larger dimension needs more snapshots"
+        require_dimension("AffineSubspace", dimension, self.dimension, cure=cure)
         basis = np.asfortranarray(self.basis[:, :dimension])
         return AffineSubspace(self.tau, basis, self.mass, self.snapshot_energies)
 
@@ -143,14 +144,3 @@ def check_subspace(subspace: object, who: str) -> None:
     """Raises a ValueError in the name of `who` for anything but a subspace, such as a basis."""
     cure = "give that of snapshot_pca or affine_subspace"
     require_type(who, "subspace", subspace, AffineSubspace, cure)
-
-
-def check_dimension(dimension: int, largest: int) -> None:
-    """ValueError unless the dimension is a whole number from 1 to the largest one available."""
-    if not is_whole(dimension):
-        raise wrong_type("AffineSubspace", "dimension", dimension, "give a whole number")
-    if not 1 <= dimension <= largest:
-        raise ValueError(
-            f"AffineSubspace: dimension {dimension} is not between 1 and {largest}; a larger "
-            "dimension needs more snapshots"
-        )

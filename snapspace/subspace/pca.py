@@ -9,12 +9,12 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import cholesky, solve_triangular
 from scipy.sparse import csr_array
 
-from ..arguments import as_numbers, is_number, is_whole, require_type, shown, wrong_type
+from ..arguments import as_numbers, is_number, require_count, require_type, shown, wrong_type
 from ..blas import single_threaded_blas
 from ..displacements import DisplacementRows, SnapshotGram, orthonormalise
 from ..mesh import check_mass, mass_norm, shape_rows
 from ..problem import PosingProblem, solutions_beyond_tau
-from .affine_subspace import AffineSubspace, check_dimension
+from .affine_subspace import AffineSubspace
 from .handle_products import HANDLE_WEIGHT, check_handle_weight, handle_products
 from .principal import descending, scaled
 
@@ -227,7 +227,6 @@ def _pca(
             f"pca: dimension {count} exceeds the {rank} independent directions of "
             f"{len(eigenvalues)} usable snapshots; use more samples or a smaller dimension"
         )
-    check_dimension(count, rank)
     if heavy is None:
         energies, weights = eigenvalues, scaled(eigenvalues, vectors, count)
     else:
@@ -253,8 +252,8 @@ def _orthonormal(weights: FloatArray, gram: FloatArray) -> FloatArray:
 def _check_size(dimension: int | None, energy_fraction: float | None) -> None:
     if (dimension is None) == (energy_fraction is None):
         raise ValueError("pca: give either dimension or energy_fraction")
-    if dimension is not None and not is_whole(dimension):
-        raise wrong_type("pca", "dimension", dimension, "give a whole number")
+    if dimension is not None:
+        require_count("pca", "dimension", dimension, at_least=1)
     if energy_fraction is not None and not (
         is_number(energy_fraction) and 0 < energy_fraction <= 1
     ):

@@ -24,7 +24,7 @@ def usual(problem: InterpolationProblem) -> AccurateModel:
 
 
 def test_unseen_blends_are_as_accurate_as_asked(usual: AccurateModel) -> None:
-    """Uniform blends, too, other than those that judged the model, with tighter solutions."""
+    """Uniform blends that did not judge the model are accurate too, by tighter solutions."""
     assert usual.reached and usual.step.error <= usual.target == 0.005
     assert usual.step.projection <= usual.step.error, "projections are the best possible"
     assert validate(usual.model, samples=12).error.mean() < 1.5 * usual.target
@@ -90,7 +90,7 @@ def test_an_interrupted_run_resumes_to_the_same_model(
 
 @pytest.mark.parametrize("target", [0.0, -1.0, np.nan, np.inf, 1.0, 5, "5 %"])
 def test_a_target_is_a_share(problem: InterpolationProblem, target: float) -> None:
-    """As on the command line: every model would meet 500 %."""
+    """The command line has the same bound: every model would meet 500 %."""
     with pytest.raises(ValueError, match=f"target error is {target!r}, but it must be between 0"):
         accurate_model(problem, target_error=target)
 

@@ -31,7 +31,7 @@ def checked(usual_motions: AccurateModel) -> Validation:
 
 
 def test_unseen_motions_are_as_accurate_as_asked(usual: AccurateModel, checked: Validation) -> None:
-    """Motions other than those that judged the model, too, with tighter solutions."""
+    """Motions that did not judge the model are accurate too, by tighter solutions."""
     assert usual.reached and usual.step.error <= usual.target == 0.003
     assert usual.step.projection <= usual.step.error, "projections are the best possible"
     assert usual.step.error <= usual.step.ninth

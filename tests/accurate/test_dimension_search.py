@@ -19,7 +19,7 @@ TARGET, RATIO = 0.003, 5.0
 
 @dataclass(frozen=True)
 class Projections:
-    """What a search reads of samples: projections are `scale / d` off."""
+    """The part of samples that a search reads; projection errors are `scale / d`."""
 
     trained_solutions: int
     scale: float
@@ -48,7 +48,7 @@ def tried(dimension: int, error: float, projection: float) -> Step:
     )
 
 
-def test_a_try_aims_well_below_the_target_where_the_samples_suffice() -> None:
+def test_the_search_aims_well_below_the_target_where_the_samples_suffice() -> None:
     assert next(search(400, meets_at=60).dimensions(last=False)) == AIM * 60
 
 

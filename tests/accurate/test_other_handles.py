@@ -126,7 +126,7 @@ def test_handles_may_be_moved_removed_or_fixed(
     assert median_error(started, reference) < 0.5 * median_error(impression, reference)
 
 
-def test_a_model_of_fewer_handles_is_there_at_once(
+def test_a_model_of_fewer_handles_is_available_at_once(
     motions: PosingProblem, first: Growth, rough_motions: AccurateModel[PosingModel]
 ) -> None:
     old = first.model

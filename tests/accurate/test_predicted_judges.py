@@ -35,7 +35,7 @@ FloatArray = NDArray[np.float64]
 
 
 class Predicted:
-    """Samples of a problem, most of them predicted, and the last model that did it."""
+    """Samples of a problem, most of them predicted, and the last model that predicted them."""
 
     def __init__(self, problem: InterpolationProblem, *, judges_too: bool) -> None:
         self.problem = problem

@@ -1,4 +1,4 @@
-"""Predicting: when models that only predict samples are made, and of what."""
+"""Predicting: when models that only predict samples are made, and from which samples."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def first(snapshots: Snapshots, count: int) -> Snapshots:
 
 
 class Makes:
-    """Makes nothing, and records what of."""
+    """Makes no model, and records the samples that it is asked to use."""
 
     def __init__(self) -> None:
         self.calls: list[tuple[int, int, int]] = []
@@ -63,7 +63,7 @@ def test_dimension_and_training_are_bounded(solved: Snapshots) -> None:
 
 
 class Modes:
-    """A model of which only the dimension counts."""
+    """A stand-in for a model; only its dimension counts."""
 
     def __init__(self, dimension: int) -> None:
         self.dimension = dimension

@@ -61,7 +61,7 @@ def test_held_out_samples_that_come_first_are_no_pilot(motions: PosingProblem) -
 def test_predicted_samples_are_solved_as_tightly_as_others(
     slender: PosingProblem, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Looser ones leave larger errors. Those of large bodies are looser, predicted or not."""
+    """Loose samples leave larger errors. Those of large bodies are loose, predicted or not."""
     tolerances = []
     for large in (False, True):
         monkeypatch.setattr(solving, "is_large", lambda problem, large=large: large)
@@ -99,7 +99,7 @@ def test_it_is_the_same_on_any_number_of_threads(
 
 
 def test_samples_of_a_wire_converge_without_options() -> None:
-    """With a limit of 1000 iterations a third did not: models knew only the easy motions."""
+    """With a limit of 1000 iterations, a third did not, and models saw only the easy motions."""
     mesh = bar(150, 1, 1, length=200.0)
     x = mesh.vertices[:, 0]
     domain = HandleBox(translation=20.0, angle=np.pi / 4)
@@ -110,7 +110,7 @@ def test_samples_of_a_wire_converge_without_options() -> None:
 
 
 def test_too_few_converged_samples_are_counted(slender: PosingProblem) -> None:
-    """The reduction saw only the converged ones, and said that there were no more."""
+    """The reduction once saw only the converged ones, and said that there were no more."""
     options = SolverOptions(max_iterations=60)
     with pytest.raises(ValueError, match="of 80 samples converged, but at least 10 are needed"):
         accurate_model(slender, options=options)

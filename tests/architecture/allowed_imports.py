@@ -31,6 +31,7 @@ ALLOWED: dict[str, set[str]] = {
         "interruptible",
         "mesh",
         "notice",
+        "point_text",
         "stopping",
         "stuffing",
     },

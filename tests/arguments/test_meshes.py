@@ -30,6 +30,30 @@ def stuffed(snapshots: Any, edge_length: Any) -> ss.TetMesh:
 
 
 WRONG: dict[str, tuple[Call, str]] = {
+    "a number as a file's name": (
+        lambda m, s: ss.SurfaceFile(3, b""),  # type: ignore[arg-type]
+        "SurfaceFile: name is of type int; give the name of a file",
+    ),
+    "a file's text": (
+        lambda m, s: ss.SurfaceFile("a.obj", "v 0 0 0"),  # type: ignore[arg-type]
+        "SurfaceFile: data is of type str; give the bytes of the file",
+    ),
+    "a rotation in words": (
+        lambda m, s: ss.RigidMotion("x", np.zeros(3)),  # type: ignore[arg-type]
+        "RigidMotion: rotation must be numbers, in rows of one length, but are of type str",
+    ),
+    "a flat rotation": (
+        lambda m, s: ss.RigidMotion(np.eye(2), np.zeros(3)),
+        "RigidMotion: rotation must be (3, 3), got (2, 2)",
+    ),
+    "a scale that mirrors": (
+        lambda m, s: ss.RigidMotion(np.eye(3), np.zeros(3), -1.0),
+        "RigidMotion: scale is -1.0, but must be positive",
+    ),
+    "ragged vertices to follow": (
+        lambda m, s: m.surface.following([[1, 2], [3]]),
+        "EmbeddedSurface: vertices must be numbers, in rows of one length",
+    ),
     "a shape of another mesh": (
         lambda m, s: s.problem.value_and_gradient(np.zeros(3), s.parameters[0]),
         "ElasticEnergy: the shape has 3 coordinates, but the mesh has 81 vertices, which need 243",

@@ -1,4 +1,4 @@
-"""What is no path is refused by name, by every function that takes one."""
+"""An argument that is no path is refused by name, by every function that takes a path."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ PATHS: dict[str, Callable[[Any, Any, Any], Any]] = {
 
 @pytest.mark.parametrize("path", [3, None, b"bar.obj", ["bar.obj"]])
 @pytest.mark.parametrize("who", PATHS)
-def test_what_is_no_path_is_refused_by_name(
+def test_an_argument_that_is_no_path_is_refused_by_name(
     posing_model: ss.PosingModel, posing_snapshots: ss.Snapshots, who: str, path: Any
 ) -> None:
     message = f"{who}: path is of type {type(path).__name__}; give the name of a "

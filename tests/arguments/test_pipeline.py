@@ -20,6 +20,22 @@ def problem(snapshots: Any, **changed: Any) -> ss.PosingProblem:
 
 
 WRONG: dict[str, tuple[Call, str]] = {
+    "moduli without names": (
+        lambda m, s: ss.StableNeoHookean().with_moduli(3),  # type: ignore[arg-type]
+        "StableNeoHookean: moduli is of type int; give a mapping from names to numbers",
+    ),
+    "a number as names": (
+        lambda m, s: m.problem.domain.renamed(["tail"], 3),
+        "HandleBox: new is of type int; give the names of the moving handles",
+    ),
+    "a handle without a name": (
+        lambda m, s: ss.Handle(None, np.arange(3)),  # type: ignore[arg-type]
+        "Handle: name is of type NoneType; give a name",
+    ),
+    "words as a handle": (
+        lambda m, s: ss.Handle("tail", "x"),  # type: ignore[arg-type]
+        "Handle: vertices is of type str; give an array of vertex indices",
+    ),
     "arrays as a mesh": (
         lambda m, s: problem(s, mesh=(s.problem.mesh.vertices, s.problem.mesh.tets)),
         "PosingProblem: mesh is of type tuple; give a TetMesh or ShellMesh, such as TetMesh(",
@@ -82,7 +98,7 @@ WRONG: dict[str, tuple[Call, str]] = {
     ),
     "half a dimension": (
         lambda m, s: ss.snapshot_pca(s, dimension=3.5),  # type: ignore[arg-type]
-        "pca: dimension is of type float; give a whole number",
+        "pca: dimension is 3.5, but must be a whole number",
     ),
     "the subspace before the problem": (
         lambda m, s: ss.reduce(m.subspace, s.problem, snapshots=s),

@@ -54,6 +54,10 @@ WRONG: dict[str, tuple[Call, str]] = {
         lambda m, s: m.session().polish(should_stop=3),
         "polish: should_stop is of type int; give a function without arguments, or None",
     ),
+    "a number as sample": (
+        lambda m, s: m.session().residual(3),
+        "residual: sample is of type int; give a ResidualSample",
+    ),
     "a step in words": (
         lambda m, s: m.session().step("x"),
         "step: dt 'x' must be positive and finite, in seconds",
@@ -199,6 +203,10 @@ def test_a_wrong_argument_is_refused_in_one_line(
 def test_keys_and_weights_of_blends(blending_model: ss.InterpolationModel) -> None:
     session: Any = blending_model.session()
     check_refused(lambda: next(session.animate(3)), "animate: keys is of type int; give a list")
+    check_refused(
+        lambda: session.model.problem.registered("x"),
+        "InterpolationProblem: displacements must be numbers",
+    )
     check_refused(lambda: blending_model.elastic("x"), "InterpolationModel: weights must be")
     check_refused(lambda: blending_model.elastic([1.0]), "InterpolationModel: weights have shape")
     check_refused(lambda: session.model.problem.pose_energy(-1), "pose is -1, but must be between")

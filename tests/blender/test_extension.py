@@ -123,8 +123,8 @@ def test_one_group_is_refused(bpy: Any, owner: Any) -> None:
         bpy.ops.snapspace.compute()
 
 
-def test_groups_of_small_weights_are_told_which_are_needed(bpy: Any, owner: Any) -> None:
-    """As automatic weights of an armature are; the panel counts them as handles."""
+def test_small_weights_are_refused_with_the_weight_that_is_needed(bpy: Any, owner: Any) -> None:
+    """Automatic weights of an armature are like this; the panel counts them as handles."""
     for group in owner.vertex_groups:
         members = [
             v.index for v in owner.data.vertices if group.index in [g.group for g in v.groups]
@@ -146,7 +146,7 @@ def test_without_shape_keys_there_is_nothing_to_blend(bpy: Any, owner: Any) -> N
         bpy.ops.snapspace.compute_blend()
 
 
-def test_a_mesh_that_has_changed_is_told(bpy: Any, computed: Any) -> None:
+def test_a_changed_mesh_is_reported(bpy: Any, computed: Any) -> None:
     mesh = computed.data
     computed.shape_key_clear()
     mesh.vertices.add(1)
@@ -159,7 +159,7 @@ def test_a_mesh_that_has_changed_is_told(bpy: Any, computed: Any) -> None:
 def test_a_script_makes_shape_keys_without_the_extension(
     bpy: Any, posing_model: ss.PosingModel, tmp_path: Path
 ) -> None:
-    """In Blender itself; tests/gltf/test_blender_script.py has the figures."""
+    """This runs in Blender itself; tests/gltf/test_blender_script.py has the figures."""
     bpy.ops.wm.read_homefile(use_empty=True)
     path = ss.write_blender(tmp_path / "bar.py", posing_model, ss.mode_targets(posing_model))
     exec(compile(path.read_text(encoding="utf-8"), str(path), "exec"), {})

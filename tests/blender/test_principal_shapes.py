@@ -29,7 +29,7 @@ def test_a_tolerance_saves_shapes_and_is_kept() -> None:
     assert np.linalg.norm(left, axis=2).max() == pytest.approx(found.error) and found.error <= 0.2
 
 
-def test_the_error_of_too_few_shapes_is_told() -> None:
+def test_the_error_of_too_few_shapes_is_reported() -> None:
     found = principal_shapes(FILM, tolerance=1e-9, most=1)
     assert len(found.shapes) == 1 and found.error > 0.2
 

@@ -57,7 +57,7 @@ def test_a_shorter_bake_leaves_no_keyframes_of_a_longer_one(bpy: Any, animated: 
 
 
 def test_a_new_model_after_a_bake_is_live_alone(bpy: Any, animated: Any) -> None:
-    """Baked keys were added to the live shape, and counted as poses to blend."""
+    """Baked keys were once added to the live shape, and counted as poses to blend."""
     assert bpy.ops.snapspace.bake() == {"FINISHED"}
     assert bpy.ops.snapspace.compute() == {"FINISHED"}
     assert animated.snapspace.live and all(key.mute for key in baked(animated))
@@ -74,7 +74,7 @@ def test_nothing_is_baked_in_edit_mode(bpy: Any, computed: Any) -> None:
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def test_an_edited_mesh_is_told_and_not_taken_back(bpy: Any, computed: Any) -> None:
+def test_an_edited_mesh_is_reported_and_keeps_its_edits(bpy: Any, computed: Any) -> None:
     basis = computed.data.shape_keys.key_blocks[0]
     computed.active_shape_key_index = 0
     bpy.ops.object.mode_set(mode="EDIT")
@@ -97,7 +97,7 @@ def test_a_handle_whose_empty_is_gone_rests(bpy: Any, computed: Any) -> None:
 
 
 def test_a_linked_copy_follows_and_has_no_model_of_its_own(bpy: Any, computed: Any) -> None:
-    """Without empties of its own it does not put the common mesh back to rest."""
+    """The copy has no empties, and does not put the shared mesh back to rest."""
     twin = computed.copy()
     bpy.context.scene.collection.objects.link(twin)
     rest = drawn(bpy, computed)
@@ -113,7 +113,7 @@ def test_a_linked_copy_follows_and_has_no_model_of_its_own(bpy: Any, computed: A
 def test_the_model_goes_where_the_file_is_saved(
     bpy: Any, request: pytest.FixtureRequest, tmp_path: Path, first: str
 ) -> None:
-    """A model of an unsaved file stayed in the folder for temporary files."""
+    """A model of an unsaved file once stayed in the folder for temporary files."""
     request.getfixturevalue(first)
     assert bpy.ops.snapspace.compute() == {"FINISHED"}
     folder = tmp_path / "elsewhere"

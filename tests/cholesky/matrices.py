@@ -37,7 +37,7 @@ def mesh_matrix(mesh: TetMesh) -> Any:
 
 
 def star(n: int) -> Any:
-    """Without fill if the centre comes last, dense if it comes first."""
+    """A star: no fill-in if the centre comes last, a dense factor if it comes first."""
     A = np.diag(np.full(n, 2.0))
     A[0, :] = A[:, 0] = -1.0
     A[0, 0] = n

@@ -79,7 +79,7 @@ def test_lanes_agree_with_one_number(name: str, method: str, tolerance: float) -
 
 @pytest.mark.parametrize("method", LANES)
 def test_a_lane_does_not_see_its_neighbours(method: str) -> None:
-    """Not even a neighbour that holds NaN."""
+    """This holds even for a neighbour that contains NaN."""
     factor = core.ScalarFactor(*by_columns(MATRICES["creature"]))
     b = right_hand_sides(MATRICES["creature"], LANES[method])
     x = getattr(factor, method)(b)

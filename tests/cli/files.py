@@ -106,7 +106,7 @@ def write_raw(path: Path, vertices: FloatArray, tets: NDArray[np.int32]) -> None
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    """All files below a folder, to check that none was touched."""
+    """All files below a folder, to check that none has changed."""
     return {
         str(path.relative_to(folder)): path.read_bytes()
         for path in sorted(folder.rglob("*"))

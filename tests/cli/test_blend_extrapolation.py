@@ -57,7 +57,7 @@ def test_info_gives_the_range_for_every_pose(run: Run, blend_model: Path) -> Non
 def test_info_says_where_the_range_is_unknown(
     run: Run, blending_model: InterpolationModel, tmp_path: Path
 ) -> None:
-    """For St.Venant-Kirchhoff; no notice calls its blends uncertain either."""
+    """It is unknown for St.Venant-Kirchhoff; no notice calls its blends uncertain either."""
     path = tmp_path / "poses.snapspace"
     blending_model.save(path)
     result = run("info", path, "--json")

@@ -18,7 +18,7 @@ def test_motions_far_longer_than_the_body_are_named(run: Run, tmp_path: Path) ->
     assert wanted in " ".join(told.split())
 
 
-def test_usual_motions_are_not(run: Run, tmp_path: Path) -> None:
+def test_usual_motions_are_not_named(run: Run, tmp_path: Path) -> None:
     usual = write_problem(tmp_path, domain={"translation": 4, "angle_degrees": 30})
     told = run("build", "--problem", usual, *FEW, "-o", tmp_path / "usual.snapspace").err
     assert "diagonal" not in told

@@ -141,7 +141,7 @@ def test_the_size_of_the_tets_can_be_chosen(run: Run, surface: Path, tmp_path: P
 def test_tets_that_differ_in_each_run_are_kept(
     run: Run, surface: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """fTetWild takes its points in a random order; quick tets stand for it here."""
+    """fTetWild takes its points in a random order; quick tets stand in for it here."""
     quick = surface_filling.stuff_surface
     monkeypatch.setattr(
         surface_filling, "fill_surface", lambda v, f, **o: quick(v, f, edge_length=o["edge_length"])
@@ -154,7 +154,7 @@ def test_tets_that_differ_in_each_run_are_kept(
     assert np.array_equal(read_tets(kept).tets, posing_model(path).problem.mesh.tets)
 
 
-def test_it_is_told_if_quick_tets_are_too_large(
+def test_quick_tets_that_are_too_large_are_reported(
     run: Run, surface: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     quick = surface_filling.stuff_surface

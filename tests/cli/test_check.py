@@ -39,7 +39,7 @@ def test_a_fault_has_exit_code_1_and_a_cure(run: Run, tmp_path: Path) -> None:
     assert f"snapspace check {file} --fix open-mended.obj" in result.err
 
 
-def test_cloth_is_not_to_be_mended_but_a_shell(run: Run, tmp_path: Path) -> None:
+def test_cloth_should_be_a_shell_and_not_be_mended(run: Run, tmp_path: Path) -> None:
     """No triangles close it, because those at its corners are there already."""
     cloth = sheet(8, 5)
     file = tmp_path / "cloth.obj"
@@ -55,7 +55,7 @@ def test_cloth_is_not_to_be_mended_but_a_shell(run: Run, tmp_path: Path) -> None
 
 
 def test_flat_cloth_is_a_shell_too(run: Run, tmp_path: Path) -> None:
-    """Only a thickness was advised, and no command."""
+    """The advice once had a thickness, but no command."""
     cloth = sheet(8, 5)
     file = tmp_path / "cloth.obj"
     write_surface(file, cloth.vertices, cloth.triangles)

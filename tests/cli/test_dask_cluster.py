@@ -42,7 +42,7 @@ def test_a_build_on_a_cluster_gives_the_model_of_this_machine(
     assert not list(tmp_path.glob("*.partial-*"))
 
 
-def test_so_does_an_interpolation(run: Run, cluster: Any, tmp_path: Path) -> None:
+def test_an_interpolation_on_a_cluster_gives_it_too(run: Run, cluster: Any, tmp_path: Path) -> None:
     words = ["interpolate", *write_tet_poses(tmp_path), "--samples", 6, "--dimension", 5]
     here, there = tmp_path / "here.snapspace", tmp_path / "there.snapspace"
     assert run(*words, "-o", here).code == 0

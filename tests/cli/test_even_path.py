@@ -69,7 +69,7 @@ def test_poses_are_frames_if_there_are_enough(run: Run, blend_model: Path, frame
 
 
 def distances(vertices: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Of each vertex from each other, (n, n)."""
+    """Distances between all vertices, (n, n)."""
     between: NDArray[np.float64] = np.linalg.norm(vertices[:, None] - vertices, axis=2)
     return between
 
@@ -87,7 +87,7 @@ def turning_model(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_turn_of_the_whole_body_is_told_from_a_jump_of_the_shape(
+def test_a_turn_of_the_whole_body_is_distinguished_from_a_jump(
     run: Run, turning_model: Path
 ) -> None:
     result = run("blend", turning_model, "--path", 40, "--json")

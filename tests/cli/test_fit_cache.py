@@ -113,7 +113,7 @@ def one_bit_flipped(path: Path) -> None:
 
 
 def without_a_checksum(path: Path) -> None:
-    """A file of the time before files had checksums."""
+    """A file from before files had checksums."""
     with safe_open(path, framework="np") as file:
         arrays = {name: file.get_tensor(name) for name in file.keys()}
         words = {k: v for k, v in file.metadata().items() if k != "crc32"}
@@ -129,7 +129,7 @@ def of_another_program(path: Path) -> None:
 
 
 def with_another_report(path: Path) -> None:
-    """A file of a version whose reports have other entries."""
+    """A file from a version whose reports have other entries."""
     save_file({"shape": SHAPE, "vertices": 0 * SHAPE, "tets": MESH.tets}, path, {"fit": "{}"})
 
 

@@ -52,7 +52,7 @@ def test_options_are_checked_before_the_poses_are_read(run: Run, tmp_path: Path,
 
 
 @pytest.mark.parametrize("name", OUT_OF_RANGE)
-def test_no_pose_is_fitted_in_vain(
+def test_options_are_checked_before_poses_are_fitted(
     run: Run, tmp_path: Path, surface_words: list[object], name: str
 ) -> None:
     words, message = OUT_OF_RANGE[name]

@@ -51,7 +51,7 @@ def test_ctrl_c_keeps_the_poses_that_are_fitted(
     code: int,
     word: str,
 ) -> None:
-    """And SIGTERM, which arrives while compiled code fits on another thread."""
+    """SIGTERM, which arrives while compiled code fits on another thread, keeps them too."""
     path = tmp_path / "m.snapspace"
 
     def stop() -> None:

@@ -133,7 +133,7 @@ def test_an_interrupt_anywhere_is_exit_code_130(
 def test_ctrl_c_is_not_a_mistake_of_the_user(
     run: Run, model: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Also where a library turns it into its own error."""
+    """This holds even where a library turns it into its own error."""
     broken = interrupted_as(ValueError("cannot compare these types"))
     monkeypatch.setattr("snapspace.cli.loading.load", broken)
     result = run("validate", model)

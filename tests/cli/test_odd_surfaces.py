@@ -1,6 +1,6 @@
 """Odd and large surfaces: each has its outcome in `check`, in filling and in the page.
 
-What is refused is refused at every door, in one line that says why.
+What is refused is refused by every command and by the page, in one line that says why.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ def test_what_has_an_inside_is_filled(odd: Odd) -> None:
 
 
 @pytest.mark.parametrize("odd", REFUSED.values(), ids=REFUSED)
-def test_what_has_none_is_refused_at_every_door(run: Run, tmp_path: Path, odd: Odd) -> None:
+def test_what_has_none_is_refused_everywhere(run: Run, tmp_path: Path, odd: Odd) -> None:
     stages: list[str] = []
     with pytest.raises(ValueError) as caught:
         COARSE.fill(*odd.surface, stage=lambda name, *_: stages.append(name))
@@ -96,7 +96,7 @@ def test_what_has_none_is_refused_at_every_door(run: Run, tmp_path: Path, odd: O
 
 
 @pytest.mark.parametrize("suffix", [".obj", ".off", ".ply", ".stl", ".glb", ".gltf"])
-def test_an_empty_file_is_refused_at_every_door(run: Run, tmp_path: Path, suffix: str) -> None:
+def test_an_empty_file_is_refused_everywhere(run: Run, tmp_path: Path, suffix: str) -> None:
     file = tmp_path / f"empty{suffix}"
     file.write_bytes(b"")
     for words in [("check", file), *commands(file)]:
@@ -121,7 +121,7 @@ def test_a_file_without_faces_is_refused(tmp_path: Path, name: str, text: str) -
 
 @pytest.mark.parametrize("scale", [1e6, 1e-6])
 def test_a_model_is_the_same_in_any_unit(scale: float) -> None:
-    """Up to where the tets cut off the edges: rounding decides there."""
+    """They may differ where the tets cut off the edges: rounding decides there."""
     assert np.abs(posed_block(scale) / scale - posed_block(1.0)).max() < 5e-3
 
 

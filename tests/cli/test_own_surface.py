@@ -59,7 +59,7 @@ def test_frames_of_a_path_have_the_format_of_the_file(run: Run, own_model: Path)
 
 @pytest.mark.parametrize("kind", ["glb", "stl binary"])
 def test_another_surface_can_be_moved(run: Run, model: Path, tmp_path: Path, kind: str) -> None:
-    """It follows the tets that it lies in, also where a model was made without any surface."""
+    """It follows the tets that it lies in, even if the model was made without any surface."""
     file = write_file(tmp_path, kind)
     out, tets = tmp_path / f"out{file.suffix}", tmp_path / "out.vtu"
     assert run("pose", model, *MOVE, "--surface", file, "-o", out).code == 0

@@ -165,7 +165,7 @@ def test_a_motion_beyond_the_samples_gives_a_notice(run: Run, model: Path) -> No
     beyond = run("pose", model, "--handle", "right", "--euler", "0,0,31")
     assert (inside.code, beyond.code) == (0, 0)
     assert "notice" not in inside.err
-    assert "notice: 'right' moves farther than the samples did" in beyond.err
+    assert "notice: 'right' moves farther, relative to 'left', than the samples" in beyond.err
 
 
 @pytest.mark.usefixtures("small_pictures")

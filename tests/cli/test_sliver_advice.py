@@ -13,7 +13,7 @@ from snapspace.generators import bar
 
 
 def notice_of(capsys: pytest.CaptureFixture[str], *, height: float) -> str:
-    """After a build whose only sample has one inverted tet, which has this height at rest."""
+    """The notice of a build whose only sample has one inverted tet, of this height at rest."""
     mesh = bar(4, 2, 2)
     vertices = mesh.vertices.copy()
     tet = next(t for t in mesh.tets if not set(t) <= set(mesh.surface_vertices))

@@ -22,7 +22,7 @@ from ..snapshots.bars import posing_bar
 
 
 def cubature_of(scale: float) -> Cubature:
-    """Of a bar whose lengths are multiplied by a scale."""
+    """The cubature of a bar whose lengths are multiplied by a scale."""
     bar = posing_bar(material=StableNeoHookean())
     box = HandleBox(translation=scale * np.array(bar.domain.translation), angle=bar.domain.angle)
     mesh = TetMesh(scale * bar.mesh.vertices, bar.mesh.tets)
@@ -41,7 +41,7 @@ def usual() -> Cubature:
 
 @pytest.mark.parametrize("power", [-30, -20, 36])
 def test_a_cubature_is_the_same_in_every_unit_of_length(usual: Cubature, power: int) -> None:
-    """Powers of two round nothing. In single precision 1e-9 gave no cubature, and 1e-6 a worse."""
+    """Powers of two do not round. In floats, 1e-9 once gave no cubature, and 1e-6 a worse one."""
     found = cubature_of(2.0**power)
     np.testing.assert_array_equal(found.tets, usual.tets)
     np.testing.assert_allclose(found.weights / 2.0 ** (3 * power), usual.weights, rtol=1e-4)

@@ -69,7 +69,7 @@ def killed() -> NoReturn:
 def in_a_child(work: Callable[[], object], *, size: int | None = None) -> int:
     """Runs `work` in a fork of this process; returns the signal that killed it, 0 if none did.
 
-    If `size` is given, the system kills it when a file grows beyond so many bytes.
+    If `size` is given, the system kills it when a file grows beyond this many bytes.
     """
     child = os.fork()
     if child == 0:

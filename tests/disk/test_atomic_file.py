@@ -101,7 +101,7 @@ def test_files_of_a_dead_process_are_removed_and_all_others_stay(tmp_path: Path)
     stays = [
         left_by(tmp_path, os.getpid()),
         left_by(tmp_path, 1),
-        left_by(tmp_path, dead_process(), mark="0" * 12),  # of another machine or container
+        left_by(tmp_path, dead_process(), mark="0" * 12),  # from another machine or container
         left_by(tmp_path, 10**9),  # no system has such a number
         tmp_path / ".dragon.snapspace",
         tmp_path / ".dragon.1234abcd.snapspace",

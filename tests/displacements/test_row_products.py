@@ -35,7 +35,7 @@ def test_products_have_the_matrix_in_between(count: int, others: int) -> None:
     np.testing.assert_allclose(result, expected.reshape(count, others), rtol=0, atol=1e-11)
 
 
-def test_products_have_the_same_bits_with_any_others_and_on_any_threads() -> None:
+def test_products_are_bitwise_the_same_with_any_others_and_threads() -> None:
     every = products(ROWS, ROWS)
     np.testing.assert_array_equal(products(ROWS, ROWS, threads=3), every)
     np.testing.assert_array_equal(products(ROWS[7:9], ROWS[40:41]), every[7:9, 40:41])
@@ -77,7 +77,7 @@ def test_a_combination_depends_on_no_other_and_on_no_row_without_weight() -> Non
     np.testing.assert_array_equal(clean[0], every[3])
 
 
-def test_combinations_have_the_same_bits_on_any_threads() -> None:
+def test_combinations_are_bitwise_the_same_for_any_threads() -> None:
     """The rows are long enough for several parts."""
     rows = DisplacementRows(RANDOM.standard_normal((9, 5000)), 5000)
     weights = RANDOM.standard_normal((6, 9))

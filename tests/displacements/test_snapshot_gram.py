@@ -70,14 +70,14 @@ def test_it_sums_over_several_blocks_of_vertices() -> None:
 
 @settings(max_examples=40)
 @given(data=st.data(), count=st.integers(2, 70))
-def test_the_same_bits_however_the_rows_are_split(data: st.DataObject, count: int) -> None:
+def test_it_is_bitwise_the_same_however_the_rows_are_split(data: st.DataObject, count: int) -> None:
     """A resumed run finds its samples finished in other pieces."""
     mass, rows = MASSES["consistent"], displacements(count, SIZE)
     splits = sorted(data.draw(st.lists(st.integers(0, count), max_size=6)))
     np.testing.assert_array_equal(gram(mass, rows, splits).matrix, gram(mass, rows).matrix)
 
 
-def test_the_same_bits_wherever_the_rows_are_and_for_any_threads() -> None:
+def test_it_is_bitwise_the_same_wherever_the_rows_are_and_for_any_threads() -> None:
     mass, rows = mass_matrix(LARGE), displacements(40, LARGE.vertices.size)
     together = gram(mass, rows).matrix
     apart = SnapshotGram(mass)
@@ -154,7 +154,7 @@ def test_errors_fall_with_every_dimension(seed: int, count: int) -> None:
 
 
 def test_errors_vanish_in_the_span_of_the_training_rows() -> None:
-    """Also when the training rows are linearly dependent: nothing is divided by noise."""
+    """This holds for linearly dependent training rows, too: nothing is divided by noise."""
     rows = decaying(40, 6)
     errors = gram(MASSES["consistent"], rows).held_out_error(range(30), range(30, 40), 20)
     np.testing.assert_allclose(errors, 0.0, atol=3e-7)  # roots of what rounding leaves

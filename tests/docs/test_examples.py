@@ -57,5 +57,5 @@ def test_scripts_make_all_pictures_of_the_docs(monkeypatch: pytest.MonkeyPatch) 
     made |= {"path-lion.png"}  # by benchmarks/blend_strip.py, from meshes outside the project
     folder = ROOT / "docs" / "pictures"
     assert made == {path.name for path in folder.iterdir() if path.is_file()}
-    programs = ("table", "figure", "elephant", "evaluations", "curves")  # of `make paper`
+    programs = ("table", "figure", "elephant", "evaluations", "curves")  # programs of `make paper`
     assert all(path.name.startswith(programs) for path in (folder / "paper").iterdir())

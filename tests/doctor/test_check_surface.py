@@ -37,7 +37,7 @@ def with_duplicate(v: Vertices, f: Faces) -> Surface:
 
 
 def with_turned_duplicate(v: Vertices, f: Faces) -> Surface:
-    """Without both copies there would be a hole, so it is no wall between solids."""
+    """Without both copies there would be a hole, so they are no wall between solids."""
     return v, np.concatenate([f, f[:1, ::-1]])
 
 
@@ -196,7 +196,7 @@ def test_what_is_no_surface_is_refused(
         check_surface(vertices, faces)
 
 
-def test_what_is_said_of_holes_is_what_mending_does() -> None:
+def test_the_report_about_holes_is_what_mending_does() -> None:
     """The removed end is closed; a long cut around a corner is not."""
     vertices, faces = box()
     centers = vertices[faces].mean(axis=1)

@@ -61,7 +61,7 @@ def test_equals_the_hessian_at_the_states_that_an_svd_clamps(size: float, thresh
 
 @every_material
 def test_it_is_the_same_for_every_material(material: Material) -> None:
-    """Not a projection for every material, but the Hessian of a state that is not inverted."""
+    """It is the Hessian of a state that is not inverted, not a projection for every material."""
     x = deformed(MESH, 0.6)
     expected = hessian_of_clamped_states(MESH, x, 0.65, material)
     clamped = ElasticEnergy(MESH, material).clamped_hessian(x, threshold=0.65).toarray()

@@ -57,7 +57,7 @@ def test_the_stress_and_the_hessian_of_degenerate_tets_are_finite(material: Mate
 
 @pytest.mark.parametrize("single", [False, True])
 @every_material
-def test_the_same_in_lanes(material: Material, single: bool) -> None:
+def test_derivatives_in_lanes_are_finite_too(material: Material, single: bool) -> None:
     for F in DEGENERATE:
         energy, u = single_tets(material, 1), displacements(F[None])
         values, gradients = energy.lane_values_and_gradients(u[None], single=single)

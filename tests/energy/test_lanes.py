@@ -1,4 +1,4 @@
-"""One sample per lane of a pack; its bits do not depend on the lane or on other samples."""
+"""One sample per lane of a pack; no bit depends on the lane or on other samples."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def in_packs(
 
 
 @every_kind
-def test_a_lane_has_the_bits_of_the_sample_alone(kind: type[Material]) -> None:
+def test_a_lane_is_bitwise_the_sample_alone(kind: type[Material]) -> None:
     energy, shapes = compiled(kind), displaced(12)
     values, gradients = in_packs(energy, shapes)
     for u, value, gradient in zip(shapes, values, gradients, strict=True):
@@ -59,7 +59,7 @@ def test_a_lane_has_the_bits_of_the_sample_alone(kind: type[Material]) -> None:
 
 @precisions
 @every_kind
-def test_a_sample_has_the_same_bits_in_any_lane_beside_any_others(
+def test_a_sample_is_bitwise_the_same_in_any_lane_beside_any_others(
     kind: type[Material], single: bool
 ) -> None:
     energy, shapes = compiled(kind), displaced(16)

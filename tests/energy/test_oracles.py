@@ -25,7 +25,7 @@ CASES = [
 
 
 def by_numpy(mesh: TetMesh, x: FloatArray, material: Material) -> tuple[float, FloatArray]:
-    """From the definitions: the SVD of F of each tet, and the formula of psi."""
+    """Energy and force by definition: the SVD of F of each tet, and the formula of psi."""
     corners, moved = mesh.vertices[mesh.tets], x.reshape(-1, 3)[mesh.tets]
     Dm = (corners[:, 1:] - corners[:, :1]).swapaxes(1, 2)
     F = (moved[:, 1:] - moved[:, :1]).swapaxes(1, 2) @ np.linalg.inv(Dm)

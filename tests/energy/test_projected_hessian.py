@@ -34,7 +34,7 @@ def states(material: Material) -> FloatArray:
 
 
 def by_entries(hessian: FloatArray) -> FloatArray:
-    """The second derivative (9, 9) of 1/6 psi by the entries of F, column by column.
+    """The second derivative (9, 9) of 1/6 psi with respect to F, column by column.
 
     Vertices 1 to 3 of the unit corner tet are these columns.
     """

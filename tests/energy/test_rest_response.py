@@ -26,7 +26,7 @@ def rest_hessian(problem: PosingProblem) -> FloatArray:
 
 @every_kind
 def test_responses_of_the_handles_are_those_of_linear_elasticity(kind: type[Material]) -> None:
-    """Up to 3 % of the energy, since they are solved to about 1 %.
+    """They agree up to 3 % of the energy, since they are solved to about 1 %.
 
     Responses for the same moduli in another order are farther off.
     """

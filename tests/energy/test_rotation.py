@@ -32,7 +32,7 @@ def rotations(F: FloatArray) -> FloatArray:
     return F - densities(ARAP(), F)[1] / 2
 
 
-def test_of_matrices_that_are_not_inverted() -> None:
+def test_matrices_that_are_not_inverted() -> None:
     random = np.random.default_rng(2)
     for s in (random.uniform(0.0, 2.0, (COUNT, 3)), random.uniform(0.9, 1.1, (COUNT, 3))):
         F, U, V = turned(s)
@@ -42,7 +42,7 @@ def test_of_matrices_that_are_not_inverted() -> None:
 
 
 @pytest.mark.parametrize(("gap", "error"), GAPS)
-def test_of_inverted_matrices(gap: float, error: float) -> None:
+def test_inverted_matrices(gap: float, error: float) -> None:
     """U V^T of the signed decomposition is the nearest rotation."""
     s = stretches(gap)
     F, U, V = turned(s)
@@ -75,7 +75,7 @@ def test_forces_are_finite_and_bounded_where_the_rotation_jumps(gap: float, sing
 
 
 @pytest.mark.parametrize("width", [1e-2, 1e-4, 1e-6, 1e-8, 1e-12, 0.0])
-def test_of_needles(width: float) -> None:
+def test_needles(width: float) -> None:
     """Two singular values are nearly zero, of any sign: each adds mu to psi and pulls with 2 mu."""
     random = np.random.default_rng(5)
     s = np.stack(
@@ -88,7 +88,7 @@ def test_of_needles(width: float) -> None:
 
 
 @pytest.mark.parametrize("size", [1e-3, 1e-8, 1e-20, 0.0])
-def test_of_matrices_that_are_nearly_zero(size: float) -> None:
+def test_matrices_that_are_nearly_zero(size: float) -> None:
     """|F - R| is about |R| there, whatever R is; forces are finite even at zero."""
     for sign in (1.0, -1.0):
         s = size * np.random.default_rng(5).uniform(0.5, 1.0, (COUNT, 3))

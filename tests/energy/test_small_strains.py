@@ -68,7 +68,7 @@ def test_the_hessian_at_rest_has_six_zero_modes_and_is_otherwise_positive(
 def test_small_displacements_have_the_energy_of_linear_elasticity(
     material: Material, mesh: TetMesh
 ) -> None:
-    """Up to the cubic term, which falls with the size, and the rounding of stresses of F."""
+    """They agree up to the cubic term, which falls with the size, and rounding of stresses of F."""
     energy = ElasticEnergy(mesh, material)
     hessian = energy.hessian(mesh.vertices)
     for size in (1e-5, 1e-6):

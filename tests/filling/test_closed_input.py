@@ -12,14 +12,14 @@ from .surfaces import surface_of
 
 
 def notice_without(faces: int) -> str:
-    """The notice about a bar of which the first faces are missing."""
+    """The notice about a bar without its first faces."""
     vertices, triangles = surface_of(bar(4, 2, 2))
     with pytest.warns(MeshNotice) as caught:
         closed_input(vertices, triangles[faces:], who="fill", mend=True, leave_open=True)
     return str(caught[0].message)
 
 
-def test_what_was_mended_is_said_and_what_is_still_open() -> None:
+def test_the_notice_says_what_was_mended_and_what_is_still_open() -> None:
     closed = notice_without(1)
     assert closed.startswith("the surface was mended for filling: closed 1 hole with 1 face")
     assert "not closed" not in closed

@@ -36,7 +36,7 @@ def test_the_solid_is_that_of_the_surface(barrel: Surface, filled: TetMesh) -> N
     check_closed(filled.surface, who="test")
 
 
-def test_passes_are_told_while_it_works(barrel: Surface) -> None:
+def test_passes_are_reported_while_it_works(barrel: Surface) -> None:
     """Finer than in other tests: a pass must last longer than the pause between two looks."""
     passes: list[int] = []
     fill_surface(*barrel, edge_length=0.04, tolerance=1e-3, progress=passes.append)

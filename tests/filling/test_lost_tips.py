@@ -50,12 +50,12 @@ def test_a_part_of_one_side_is_a_tip(rings: np.ndarray, rod_faces: np.ndarray) -
     assert are_tips(rings[600, :1], rod_faces)
 
 
-def test_what_joins_two_parts_is_none(rings: np.ndarray, rod_faces: np.ndarray) -> None:
+def test_what_joins_two_parts_is_no_tip(rings: np.ndarray, rod_faces: np.ndarray) -> None:
     assert not are_tips(rings[600], rod_faces)
     assert not are_tips(rings[[0, 600]].ravel(), rod_faces)
 
 
-def test_many_vertices_are_none(rings: np.ndarray, rod_faces: np.ndarray) -> None:
+def test_many_vertices_are_no_tip(rings: np.ndarray, rod_faces: np.ndarray) -> None:
     few = int(FEW * rings.size / 4)
     assert are_tips(rings[:few].ravel(), rod_faces)
     assert not are_tips(rings[: few + 1].ravel(), rod_faces)

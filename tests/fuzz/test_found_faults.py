@@ -24,7 +24,7 @@ def cubature(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_a_table_of_tets_in_a_cubature(cubature: Path, tmp_path: Path) -> None:
-    """The core's error about types went over many lines."""
+    """The core's error about types once filled many lines."""
     arrays, header = read_container(cubature)
     arrays["cubature_tets"] = arrays["cubature_tets"][None]
     write_container(tmp_path / "b.snapspace", arrays, header)
@@ -44,7 +44,7 @@ def test_line_ends_in_a_models_header(cubature: Path, tmp_path: Path, entry: str
 @pytest.mark.parametrize("name", ["parameters", "displacements"])
 @pytest.mark.parametrize("change", ["missing", "empty", "flat"])
 def test_samples_with_other_arrays(tmp_path: Path, name: str, change: str) -> None:
-    """They raised KeyError, or TypeError from a memory view or a length."""
+    """They once raised KeyError, or TypeError from a memory view or a length."""
     found = snapshots()
     arrays = {
         "parameters": np.asarray(found.parameters),
@@ -74,7 +74,7 @@ def test_control_characters_in_a_problem(tmp_path: Path) -> None:
 
 
 def test_a_meshb_file_without_vertices(tmp_path: Path) -> None:
-    """meshio gives None in place of the table, and counting its rows raised TypeError."""
+    """meshio gives None in place of the table, and counting its rows once raised TypeError."""
     (tmp_path / "a.meshb").write_bytes(struct.pack("<8i", 1, 2, 3, 20, 3, 54, 0, 0))
     with pytest.raises(ValueError, match=r"a\.meshb: .*its vertices are not a table"):
         read_tets(tmp_path / "a.meshb")

@@ -26,7 +26,7 @@ def test_cubical_cells_have_the_angles_of_kuhn_tets() -> None:
     assert angles.min() == pytest.approx(45.0)
 
 
-def test_same_call_same_bits() -> None:
+def test_the_same_call_gives_the_same_bits() -> None:
     assert bar().fingerprint == bar().fingerprint
 
 

@@ -54,7 +54,7 @@ def test_is_mirror_symmetric_to_the_last_bit() -> None:
     assert np.array_equal(creature_shape(points), creature_shape(points * [1, -1, 1]))
 
 
-def test_same_call_same_bits() -> None:
+def test_the_same_call_gives_the_same_bits() -> None:
     assert creature(5_000).fingerprint == creature(5_000).fingerprint
 
 

@@ -43,7 +43,7 @@ def test_default_is_well_shaped_and_of_the_papers_size() -> None:
     assert mesh.dihedral_angles.min() > 30.0
 
 
-def test_same_call_same_bits() -> None:
+def test_the_same_call_gives_the_same_bits() -> None:
     assert cylinder().fingerprint == cylinder().fingerprint
 
 

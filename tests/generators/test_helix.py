@@ -55,7 +55,7 @@ def test_frame_does_not_turn_about_the_line_unless_twisted() -> None:
     assert turning(1.5) == pytest.approx(1.5, abs=1e-3)
 
 
-def test_same_call_same_bits() -> None:
+def test_the_same_call_gives_the_same_bits() -> None:
     assert helix().fingerprint == helix().fingerprint
 
 

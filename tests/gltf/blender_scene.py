@@ -1,4 +1,4 @@
-"""As much of Blender (bpy and mathutils) as the scripts of write_blender use."""
+"""The part of Blender (bpy and mathutils) that the scripts of write_blender use."""
 
 from __future__ import annotations
 

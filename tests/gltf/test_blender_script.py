@@ -154,7 +154,7 @@ def test_an_object_below_turned_and_mirroring_nodes_is_found(
 def test_another_mesh_of_as_many_vertices_is_left_alone(
     posing_model: PosingModel, scene: Scene, tmp_path: Path
 ) -> None:
-    """It got the model's shape."""
+    """It once got the model's shape."""
     own = scene.add(rest_of(posing_model) * [1.0, 1.0, 1.1])
     scene.active.active = own
     made = scene.run(write_blender(tmp_path / "bar.py", posing_model, mode_targets(posing_model)))

@@ -113,7 +113,7 @@ def test_colours_that_are_given_come_in_place_of_the_materials(
     assert (corners(file, "COLOR_0") == [1, 0, 0]).all()
 
 
-def test_what_gltf_cannot_hold_is_told(posing_model: PosingModel, tmp_path: Path) -> None:
+def test_what_gltf_cannot_hold_is_reported(posing_model: PosingModel, tmp_path: Path) -> None:
     own = own_file(posing_model)
     gif = io.BytesIO()
     Image.new("RGB", (4, 4), RED).save(gif, "GIF")

@@ -32,7 +32,7 @@ def test_weights_that_are_not_negative_need_no_offset() -> None:
 def test_a_clamped_film_is_the_film(
     posing_model: PosingModel, all_modes: bool, tmp_path: Path
 ) -> None:
-    """To and fro: fitted weights have both signs."""
+    """The film moves to and fro, so fitted weights have both signs."""
     session = posing_model.session()
     nod = session.animate([{"head": ((0, z, 0), (0, 0, z))} for z in (0.3, -0.3)], frames=8)
     shapes = np.array([session.vertices for _ in nod])

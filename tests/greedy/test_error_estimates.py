@@ -89,7 +89,7 @@ def test_it_ranks_unseen_samples_like_their_true_errors(
     assert np.median(estimates / errors) > 0.3
 
 
-def test_it_has_the_same_bits_for_any_number_of_threads_and_any_order() -> None:
+def test_it_is_bitwise_the_same_for_any_number_of_threads_and_any_order() -> None:
     model = model_of(solved(posing_bar(), 10), 6)
     unseen = sample(model.problem.domain, 24, seed=2)
     one = estimated_errors(model, unseen, threads=1)

@@ -65,7 +65,7 @@ def test_chosen_points_are_farther_from_the_subspace_than_the_others() -> None:
 
 
 @PROBLEMS
-def test_the_result_has_the_same_bits_on_any_threads_and_executor(make: Make) -> None:
+def test_the_result_is_bitwise_the_same_on_any_threads_and_executor(make: Make) -> None:
     one = greedy_snapshots(make(), 20, threads=1, **SMALL)
     assert_same_bits(one, greedy_snapshots(make(), 20, threads=2, **SMALL))
     with ThreadPoolExecutor(2) as pool:

@@ -22,7 +22,7 @@ def test_a_longer_choice_starts_with_the_shorter_one() -> None:
     assert largest_pivots(gram, 20)[:5] == largest_pivots(gram, 5)
 
 
-def test_of_two_equal_vectors_only_one_is_taken_first() -> None:
+def test_only_one_of_two_equal_vectors_is_taken_first() -> None:
     vectors = np.array([[5.0, 5.0, 0.0], [0.0, 0.0, 1.0]])
     assert largest_pivots(vectors.T @ vectors, 2) == [0, 2]
 

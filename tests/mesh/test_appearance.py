@@ -57,13 +57,13 @@ def test_an_obj_has_coordinates_colours_normals_and_materials(variant: str) -> N
 
 
 def test_a_library_of_materials_may_begin_with_a_byte_order_mark() -> None:
-    """As editors of Windows write it."""
+    """Editors on Windows write one."""
     library = b"newmtl blue\nKd 0 0 1\nnewmtl red\nKd 1 0 0\n"
     look = look_of(SurfaceFile("cube.obj", obj(""), beside={"cube.mtl": BOM_UTF8 + library}))
     assert [one.color for one in look.materials] == [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)]
 
 
-def test_materials_that_are_missing_are_white_and_told() -> None:
+def test_missing_materials_are_white_and_reported() -> None:
     look = look_of(SurfaceFile("cube.obj", obj("")))
     assert {one.color for one in look.materials} == {(1.0, 1.0, 1.0)}
     assert look.missing == ("cube.mtl",)

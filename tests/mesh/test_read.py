@@ -82,7 +82,7 @@ def test_reads_vega_files_of_both_numberings(tmp_path: Path, base: int) -> None:
 
 @pytest.mark.parametrize("name", ["a.veg", "a.mesh", "a.node"])
 def test_texts_may_begin_with_a_byte_order_mark(tmp_path: Path, name: str) -> None:
-    """As editors of Windows write it."""
+    """Editors on Windows write one."""
     mesh, file = irregular_mesh(), tmp_path / name
     if name == "a.veg":
         write_veg(file, mesh)

@@ -14,7 +14,7 @@ from ..snapshots.creatures import creature
 
 
 def test_it_is_that_of_a_box() -> None:
-    """Beyond faces, edges and corners, so that closest points are of all three kinds."""
+    """Points beyond faces, edges and corners have closest points of all three kinds."""
     mesh = bar(4, 2, 2, length=2.0, width=1.0, height=1.0)
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     points = np.random.default_rng(0).uniform(low - 1.0, high + 1.0, (3000, 3))

@@ -49,7 +49,7 @@ def test_vertices_and_faces_are_those_of_read_surface(tmp_path: Path, kind: str)
 
 @pytest.mark.parametrize("kind", ["obj", "off", "ply ascii", "ply binary_little_endian"])
 def test_texts_may_begin_with_a_byte_order_mark(tmp_path: Path, kind: str) -> None:
-    """As editors of Windows write it."""
+    """Editors on Windows write one."""
     file = write_file(tmp_path, kind)
     before = open_surface(file)
     content = file.read_bytes()
@@ -82,7 +82,7 @@ def test_an_independent_reader_finds_the_moved_shape(tmp_path: Path, kind: str) 
 
 def _meshes(path: Path) -> list[trimesh.Trimesh]:
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of trimesh, about the vertex without faces
+        warnings.simplefilter("ignore")  # trimesh warns of the vertex without faces
         return trimesh.load_scene(path, process=False, maintain_order=True).dump()
 
 

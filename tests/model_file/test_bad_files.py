@@ -42,7 +42,7 @@ def rewrite(path: Path, change: Change, *, sign: bool = True) -> None:
 
 
 def test_a_rewritten_file_is_fine_if_nothing_changed(saved: Path) -> None:
-    """So the files of the other tests are refused for their changes only."""
+    """So the files of the other tests are refused only because of their changes."""
     rewrite(saved, lambda arrays, header: None)
     assert load(saved).dimension == 5
 
@@ -226,14 +226,14 @@ def no_problem(arrays: dict[str, Any], header: dict[str, str]) -> None:
     ],
 )
 def test_content_that_is_not_a_valid_model_is_refused(saved: Path, change: Change) -> None:
-    """Even with a valid checksum: loaded content passes the validators of its types."""
+    """A valid checksum is not enough: loaded content passes the validators of its types."""
     rewrite(saved, change)
     assert "the model is inconsistent" in refused(saved)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
 def test_a_number_that_is_not_finite_is_refused_in_any_array(saved: Path, value: float) -> None:
-    """Even with a valid checksum: the shapes would not be finite."""
+    """A valid checksum is not enough: the shapes would not be finite."""
     content = saved.read_bytes()
     names = [name for name, array in load_file(saved).items() if array.dtype.kind == "f"]
     assert {"vertices", "basis", "quartic", "handle_S", "training_coordinates"} <= set(names)

@@ -179,7 +179,7 @@ def test_any_safetensors_reader_opens_it(blending_model: InterpolationModel, sav
 
 
 def test_a_rewritten_file_is_fine_if_nothing_changed(saved: Path) -> None:
-    """So the files of the tests below are refused for their changes only."""
+    """So the files of the tests below are refused only because of their changes."""
     rewrite(saved, lambda arrays, header: None)
     assert load(saved).dimension == 12
 

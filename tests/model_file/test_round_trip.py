@@ -137,7 +137,7 @@ def test_a_truncated_model_survives(model: ReducedModel, tmp_path: Path) -> None
 
 
 def test_saving_twice_gives_identical_bytes(model: ReducedModel, tmp_path: Path) -> None:
-    """So that models can be compared by their hash; a loaded model saves the same bytes, too."""
+    """So models can be compared by their hash; a loaded model saves the same bytes, too."""
     contents = {model.save(tmp_path / f"{i}.snapspace").read_bytes() for i in range(5)}
     contents.add(load(tmp_path / "0.snapspace").save(tmp_path / "again.snapspace").read_bytes())
     assert len(contents) == 1

@@ -1,4 +1,4 @@
-"""Files of surfaces that are as rigid as possible have what the stars leave of the energy."""
+"""Files of as-rigid-as-possible surfaces have what the stars leave of the energy."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def blended() -> InterpolationModel:
     return blended_strips()
 
 
-def test_they_are_those_of_the_mesh(
+def test_star_forms_are_those_of_the_mesh(
     posed: PosingModel, blended: InterpolationModel, tmp_path: Path
 ) -> None:
     other = load(posed.save(tmp_path / "posed.snapspace"))

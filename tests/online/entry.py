@@ -96,7 +96,7 @@ class Entry:
         return code
 
     def residual(self) -> float:
-        """Of the present shape, if a probe is set."""
+        """The residual of the present shape, if a probe is set."""
         found = ctypes.c_double(np.nan)
         assert self.call("residual", self.reference(found)) == 0
         return found.value

@@ -1,4 +1,4 @@
-"""Residuals of surfaces that are as rigid as possible through the C interface."""
+"""Residuals of as-rigid-as-possible surfaces through the C interface."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def blended() -> InterpolationModel:
 
 
 def probe_of(model: PosingModel | InterpolationModel) -> ss.StarProbe:
-    """At all vertices."""
+    """A probe at all vertices."""
     n = len(model.problem.mesh.vertices)
     sample = ss.ResidualSample(np.arange(n, dtype=np.int32), np.linspace(1, 2, n))
     made = ss.residual_probe(model.problem, model.subspace, sample)

@@ -1,4 +1,4 @@
-"""Blends of surfaces that are as rigid as possible through the C interface."""
+"""Blends of as-rigid-as-possible surfaces through the C interface."""
 
 from __future__ import annotations
 

@@ -116,7 +116,7 @@ def set_number(page: Page, label: str, value: float) -> None:
 
 
 def compute(page: Page, most_samples: int = 20, percent: float = 50.0) -> None:
-    """Begins to compute; as it stands, one model is good enough."""
+    """Begins to compute; with these defaults, one model is good enough."""
     set_number(page, "Error of unseen motions, %", percent)
     set_number(page, "Samples, at most", most_samples)
     press(page, "Compute")

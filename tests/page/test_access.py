@@ -90,7 +90,7 @@ def test_controls_are_large_enough_for_fingers(
     tabs.close(page)
 
 
-def test_a_phone_is_not_told_to_press_keys(posing_page: Path, opened: OpenPage) -> None:
+def test_a_phone_shows_no_keys_to_press(posing_page: Path, opened: OpenPage) -> None:
     turns = {"choose Turn": PHONE, "Shift-drag": {}}
     for how, options in turns.items():
         page = opened(posing_page.as_uri(), **options)

@@ -1,4 +1,4 @@
-"""From the handles on a model's body the page goes back to the model as it was."""
+"""From choosing handles on a model's body, the page returns to the model as it was."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def test_a_model_stays_if_there_is_none_of_other_handles(
         choose(other)
         ranges(other, travel=0.5, degrees=120.0)
         compute(other, most_samples=20_000, percent=0.01)
-        other.wait("snapspace.kind === 'posing'")  # of the first model, which others follow
+        other.wait("snapspace.kind === 'posing'")  # the first model, which others follow
         choose(page)
         ranges(page, travel=0.5, degrees=90.0)
         press(page, "Compute")

@@ -33,7 +33,7 @@ def kept(bar_server: str, tabs: Tabs) -> Iterator[Page]:
     tabs.close(page)
 
 
-#: As at first, except that the steps before can be undone.
+#: The first state, except that earlier steps can be undone.
 NOTHING_CHOSEN = """(() => {
   const { choosing } = snapspace;
   document.activeElement.blur();

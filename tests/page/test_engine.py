@@ -45,19 +45,24 @@ def certificate(session: PosingSession | BlendingSession) -> list[float] | None:
 
 def posing_frames(model: PosingModel) -> dict[str, Any]:
     """A drag with two handles, one step of it outside of the box, then with the first handle."""
-    # the page always starts from its last frame, Session after a jump between the samples
+    # the page starts from its last frame, or from rest if that is nearer, Session after a jump
+    # between the samples
     first = {"training_parameters": model.training_parameters[:1]}
     first["training_coordinates"] = model.training_coordinates[:1]
     session, names = replace(model, **first).session(), model.problem.handles.names
     turn, shift = model.problem.domain.half_widths[3:6], model.problem.domain.half_widths[:3]
     frames = []
+    reached: dict[int, Any] = {}
     for motions in (
         {1: (0.3 * turn, 0.2 * shift)},
         {1: (0.6 * turn, -0.5 * shift), 2: (-0.4 * turn, 0.3 * shift)},
         {2: (1.2 * turn, 0.3 * shift)},
         {0: (np.array([0.4, -0.7, 1.9]), np.array([3.0, -1.0, 0.5])), 2: (0.2 * turn, 0 * shift)},
     ):
-        report = session.move_all({names[h]: motion for h, motion in motions.items()})
+        reached |= motions
+        if 0 in motions:
+            session.reset()
+        report = session.move_all({names[h]: motion for h, motion in reached.items()})
         assert report.converged
         frames.append(
             {

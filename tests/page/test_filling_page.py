@@ -118,9 +118,7 @@ def test_filling_can_be_cancelled(
     page.wait("snapspace.stage.root.children.length === 0")
 
 
-def test_what_waits_while_a_surface_is_read_is_said_once(
-    opened: OpenPage, chromium: object
-) -> None:
+def test_the_state_of_reading_is_shown_once(opened: OpenPage, chromium: object) -> None:
     def read(opening: Opening) -> Body:
         opening.stage("reading")
         while True:  # until the page is closed

@@ -167,8 +167,8 @@ def test_a_press_without_a_drag_is_no_step(moving: Page) -> None:
 
 
 @pytest.mark.parametrize("view", ["Numpad7", "Numpad8", "Numpad9"])
-def test_it_is_as_large_right_after_a_jump_of_the_view(moving: Page, view: str) -> None:
-    """As a share of the distance of the picture."""
+def test_its_size_stays_after_a_jump_of_the_view(moving: Page, view: str) -> None:
+    """The size counts relative to the distance from the camera."""
     size = """(() => {
       const { camera, scene } = snapspace.stage, gizmo = scene.getObjectByName("gizmo");
       const depth = -gizmo.position.clone().applyMatrix4(camera.matrixWorldInverse).z;

@@ -83,7 +83,7 @@ def test_a_drag_is_cancelled_and_undo_waits_for_its_end(
 
 
 def arrow_directions(page: Page) -> list[list[float]]:
-    """On the stage, of the arrows in the colours of the model's x, y and z."""
+    """Directions on the stage of the arrows in the colours of the model's x, y and z."""
     arrows = page.run("snapspace.arrows()")
     return [next(a["direction"] for a in arrows if a["color"] == AXES[axis]) for axis in "xyz"]
 

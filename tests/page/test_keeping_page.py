@@ -1,4 +1,4 @@
-"""Kept points become handles: the server improves the model, and posing goes on without a jolt."""
+"""Kept points become handles: the server improves the model, and posing continues smoothly."""
 
 from __future__ import annotations
 

@@ -60,7 +60,7 @@ def test_a_reload_keeps_keys(posing_page: Path, opened: OpenPage) -> None:
     add_two_keys(page)
     page.page.goto("about:blank")
     page.open()
-    assert page.run(KEYS) == [], "a page that is opened anew begins without"
+    assert page.run(KEYS) == [], "a page that is opened again begins without keys"
 
 
 def test_a_reload_keeps_keys_of_blends(blending_page: Path, opened: OpenPage) -> None:
@@ -72,7 +72,7 @@ def test_a_reload_keeps_keys_of_blends(blending_page: Path, opened: OpenPage) ->
     assert page.run(f"{KEYS}[0].state") == pytest.approx(before)
 
 
-def test_keys_go_on_without_a_handle_but_not_with_another_body(
+def test_keys_outlive_a_handle_but_not_the_body(
     bar_server: str, tmp_path: Path, opened: OpenPage
 ) -> None:
     page = bar_with_ends(opened, bar_server)
@@ -88,7 +88,7 @@ def test_keys_go_on_without_a_handle_but_not_with_another_body(
     name.press("Enter")
     press(page, "Compute")
     page.wait("snapspace.kind === 'posing'")
-    wait_for_text(page, "#panel", "The keys go on without foot.")
+    wait_for_text(page, "#panel", "Keys no longer move foot.")
     assert [head for _, head in page.run(SHIFTS)] == pytest.approx([head for _, head in before])
     wait_for_it(page)
 

@@ -128,7 +128,7 @@ def test_textures_are_in_a_model_file_once(posing_model: PosingModel) -> None:
 
 
 def test_a_texture_inside_the_surface_is_apart_in_a_model_file(posing_model: PosingModel) -> None:
-    """As in .glb files, which the model file has compressed."""
+    """So it is in .glb files, which the model file has compressed."""
     file = own_file(posing_model)
     surface = with_file(posing_model, file).surface
     look, _ = appearance_arrays(surface)
@@ -184,7 +184,7 @@ def test_points_are_vertices_at_their_corners(posing_model: PosingModel) -> None
     assert len(smooth["own_points"]) == len(file.vertices) and "own_creases" not in smooth
 
 
-def test_what_is_not_shown_is_told(
+def test_what_is_not_shown_is_reported(
     posing_model: PosingModel, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file = own_file(posing_model)

@@ -126,7 +126,7 @@ def test_a_part_has_a_colour_of_its_own_below_handles(page: Page) -> None:
 
 
 @pytest.mark.parametrize("kind", ["corotational", "arap"])
-def test_they_are_computed_with_and_saved(
+def test_materials_and_parts_are_computed_with_and_saved(
     bar_server: str, bar_folder: Path, opened: OpenPage, kind: str
 ) -> None:
     page = bar_with_ends(opened, bar_server)

@@ -62,7 +62,7 @@ def middle() -> set[int]:
 def test_mirror_pose_swaps_the_sides_and_is_undone(
     posing_model: PosingModel, tmp_path: Path, opened: OpenPage
 ) -> None:
-    """In a page without a server."""
+    """This works in a page without a server."""
     model = replace(posing_model, provenance={"mirror": MIDDLE.content})
     page: Page = opened(export_html(model, tmp_path / "mirror.html").as_uri())
     for handle, (dx, dy) in {1: (50, -40), 2: (-20, 30)}.items():
@@ -92,7 +92,7 @@ def flat(motions: dict[int, tuple[list[float], list[float]]]) -> list[float]:
     return [x for motion in motions.values() for part in motion for x in part]
 
 
-def test_where_it_cannot_the_button_says_why(
+def test_where_a_pose_cannot_be_mirrored_the_button_says_why(
     posing_model: PosingModel, tmp_path: Path, opened: OpenPage
 ) -> None:
     far = MirrorPlane((1, 0, 0), (50, 0, 0))

@@ -111,7 +111,7 @@ def assert_saved_shows_the_surface(
     assert_shown(model, page)
 
 
-def test_one_that_is_dropped_on_the_page_is_saved_with_its_tets(
+def test_a_surface_that_is_dropped_on_the_page_is_saved_with_its_tets(
     tmp_path: Path, folder: Path, opened: OpenPage, chromium: object
 ) -> None:
     with served(*TETS, cwd=tmp_path) as empty:

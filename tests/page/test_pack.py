@@ -137,7 +137,7 @@ def test_the_bytes_are_the_same_and_small(posing_model: PosingModel) -> None:
 def test_shapes_of_the_model_before_are_carried_over(
     cubature_model: PosingModel, tmp_path: Path
 ) -> None:
-    """Those of a smaller model are shapes of the larger one, and back they are the nearest ones."""
+    """A larger model has the shapes of a smaller one; carried back, they are the nearest ones."""
     small = cubature_model.leading(5)
     d = cubature_model.dimension
     larger, _ = unpacked(cubature_model, tmp_path, before=small)

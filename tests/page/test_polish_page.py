@@ -80,7 +80,7 @@ def test_a_released_handle_is_polished(
     assert_shown(posing_model, page)
 
 
-def test_there_is_nothing_to_say_at_rest(address: str, opened: OpenPage) -> None:
+def test_the_badge_stays_hidden_at_rest(address: str, opened: OpenPage) -> None:
     """The shape at rest is the full solution."""
     page = opened(address)
     page.drag(page.run("snapspace.handle(1)"), -40, -50)

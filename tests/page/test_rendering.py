@@ -75,7 +75,7 @@ def test_edges_of_faces_only_darken_the_surface(posing_page: Path, opened: OpenP
 
 
 def test_backs_of_closed_bodies_are_not_drawn(posing_page: Path, opened: OpenPage) -> None:
-    """They showed as dark specks on silhouettes."""
+    """They once showed as dark specks on silhouettes."""
     page = opened(posing_page.as_uri(), sharp=True)
     assert (picture(page)[..., 3] == 255).any()
     page.run(

@@ -66,7 +66,7 @@ def test_keys_are_played_by_solving_and_saved_for_python(
     np.testing.assert_allclose(page.shown(), wanted, atol=2e-3 * np.abs(posed - rest).max())
 
 
-def test_keys_move_hold_and_go(posing_page: Path, opened: OpenPage) -> None:
+def test_keys_are_moved_held_and_removed(posing_page: Path, opened: OpenPage) -> None:
     page = opened(posing_page.as_uri())
     head = {"degrees": [0, 0, 20], "translation": [0, 0, 0.1]}
     keys = [{"time": t, "handles": {"head": head} if t else {}} for t in (0, 1, 2)]
@@ -187,7 +187,7 @@ def test_drop_downs_keep_their_keys(posing_page: Path, opened: OpenPage) -> None
 
 
 def test_play_and_the_keys_end_each_other(many_poses_page: Path, opened: OpenPage) -> None:
-    """A walk of three poses must not go on with the single pose of a key."""
+    """A walk of three poses must not continue with the single pose of a key."""
     page = opened(many_poses_page.as_uri())
     play, film = button(page, "Play"), button(page, "Play keys")
     pressed = "(e) => e.getAttribute('aria-pressed') === 'true'"

@@ -92,7 +92,7 @@ def test_a_cancelled_upload_leaves_what_was_there(
     cancel_upload(page, lambda: drop_bad_file(page))
     wait_until_gone(page)
     stage = "document.querySelector('#panel .progress').textContent"
-    page.wait(f"{stage} !== {page.run(stage)!r}")  # the computation goes on
+    page.wait(f"{stage} !== {page.run(stage)!r}")  # the computation continues
     cancel(page)
     page.page.get_by_role("button", name="Cancel", exact=True).wait_for(state="hidden")
 

@@ -198,7 +198,7 @@ def test_a_problem_shows_its_handles(bar_folder: Path, opened: OpenPage) -> None
         page.close()  # before its server, which it would miss
 
 
-def test_the_end_of_the_server_is_told_and_posing_goes_on(
+def test_the_end_of_the_server_is_reported_and_posing_continues(
     bar_folder: Path, opened: OpenPage
 ) -> None:
     with served(bar_folder / "bar.mesh", cwd=bar_folder) as address:

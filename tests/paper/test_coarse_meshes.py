@@ -136,7 +136,7 @@ def test_a_material_that_differs_from_tet_to_tet_is_refused(coarse: CoarseMesh) 
 
 
 def test_distances_from_the_surface_around_a_vertex() -> None:
-    """In a flat face they are those from its plane; at an edge the two faces' are averaged."""
+    """In a flat face they are distances from its plane; at an edge, both faces' are averaged."""
     mesh = bar(4, 2, 2, length=4.0, width=2.0, height=2.0)
     quadrics = surface_quadrics(mesh)
     middle, edge = (

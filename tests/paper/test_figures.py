@@ -22,7 +22,7 @@ def test_more_dimensions_may_be_nearer() -> None:
     assert figures_in_order(rows(ours=0.1, modal=0.3, larger=0.05, straight=0.4)) == []
 
 
-def test_a_rival_of_the_same_dimension_may_not() -> None:
+def test_a_rival_of_the_same_dimension_may_not_be_nearer() -> None:
     (fault,) = figures_in_order(rows(ours=0.1, modal=0.1))
     assert fault == "figure 4, stvk, 0.5 0.5: VM + MD is as near as ours"
     (fault,) = figures_in_order(rows(ours=0.1, straight=0.05))

@@ -74,7 +74,7 @@ def test_stresses_of_tets_make_the_gradient(kind: str) -> None:
 
 @every_kind
 def test_stresses_of_some_tets_are_those_of_all(kind: str) -> None:
-    """In any order, and for so many poses that their numbers are summed before."""
+    """This holds in any order, and for so many poses that their numbers are summed before."""
     one, four_times = problem(kind), Poses(np.tile(POSES.shapes, (4, 1, 1)), POSES.tets)
     many = InterpolationProblem(four_times, material=one.material).system
     u = deformed(MESH, 0.05) - one.base

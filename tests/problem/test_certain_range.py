@@ -44,7 +44,7 @@ directions = st.lists(st.floats(-1, 1), min_size=4, max_size=4).map(
 )
 
 
-def test_of_two_sizes_stiffness_bounds_the_range_below_and_volume_above() -> None:
+def test_for_two_sizes_stiffness_bounds_the_range_below_and_volume_above() -> None:
     """At size s against size 1: M is 1 + w (s - 1), alpha is 1 + w (1 / s^3 - 1)."""
     for s in (0.3, 2.0, 5.0):
         ends = -1 / (s - 1), 1 / (1 - s**-3)

@@ -20,6 +20,7 @@ def test_parameters_are_translation_then_angles_handle_by_handle() -> None:
 
 def test_the_unit_cube_goes_onto_the_box() -> None:
     box = HandleBox(translation=(1.0, 2.0, 3.0), angle=0.5)
+    assert HandleBox(translation=(1.0, 2.0, 3.0), angle=0.5, moving=True) == box
     corners = box.from_unit(np.array([np.zeros(6), np.full(6, 0.5), np.ones(6)]))
     assert np.array_equal(corners[0], -box.half_widths)
     assert not corners[1].any()

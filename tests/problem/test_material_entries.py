@@ -47,7 +47,7 @@ def test_every_material_goes_by_its_name_and_the_names_of_its_moduli(kind: str) 
         ({"model": "arap", "young": 2.0, "poisson": 0.25}, ARAP(mu=0.8)),
     ],
 )
-def test_without_a_model_files_mean_what_they_meant(content: Any, expected: Material) -> None:
+def test_files_without_a_model_keep_their_meaning(content: Any, expected: Material) -> None:
     assert material_from(content, MESH) == expected
 
 

@@ -132,7 +132,7 @@ def test_a_tet_without_volume_is_always_refused(height: float, accept_inverted: 
     )
 
 
-def test_volumes_are_judged_in_the_pose_s_own_unit() -> None:
+def test_volumes_are_judged_in_the_unit_of_the_pose() -> None:
     """A pose in other units is small, but not flat."""
     poses = Poses(SHAPES * [[[1.0]], [[1e-6]], [[1e6]]], BAR.tets)
     assert (poses.volumes > 0).all()

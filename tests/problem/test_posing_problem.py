@@ -125,7 +125,7 @@ def test_a_handle_outside_of_the_mesh_is_refused_by_name() -> None:
 
 
 def test_a_mask_over_other_vertices_than_those_of_the_mesh_is_refused_by_name() -> None:
-    """For example a mask over the vertices of the surface, which are fewer."""
+    """An example is a mask over the vertices of the surface, which are fewer."""
     n = len(MESH.vertices)
     feet, head = np.arange(n) < 3, np.arange(n - 7) > n - 12
     message = f"PosingProblem: handle 'head': the mask has {n - 7} entries, but the mesh has {n} v"

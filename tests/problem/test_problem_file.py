@@ -100,7 +100,7 @@ def test_an_empty_handle_says_where_the_mesh_is(folder: Path) -> None:
 
 
 def test_a_byte_order_mark_is_skipped(folder: Path) -> None:
-    """Editors of Windows write it."""
+    """Editors on Windows write one."""
     path = write(folder, CONTENT)
     plain = problem_content(read_problem(path))
     path.write_bytes(codecs.BOM_UTF8 + path.read_bytes())

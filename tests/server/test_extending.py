@@ -143,7 +143,7 @@ def test_a_kept_point_becomes_a_handle_and_its_frames_come_nearer(tmp_path: Path
     )
     assert after < 0.2 * before, (before, after)
     content = opened.workspace.model_content(3)
-    assert content is not None and b'"from_before"' in content, "the shape goes on smoothly"
+    assert content is not None and b'"from_before"' in content, "the shape continues smoothly"
 
     opened.do(m.Save(request=3), m.Saved)
     saved = opened.last(m.Saved)
@@ -176,7 +176,7 @@ def test_the_samples_of_the_model_it_started_from_count_too(start: PosingModel) 
     assert last.samples == first.samples + 16
 
 
-def test_points_that_cannot_be_handles_are_refused_and_work_goes_on(
+def test_points_that_cannot_be_handles_are_refused_and_work_continues(
     opened: Opened, start: PosingModel
 ) -> None:
     point = middle(start.problem)

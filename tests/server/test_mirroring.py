@@ -109,7 +109,7 @@ def test_the_plane_of_a_problem_file_comes_back(tmp_path: Path) -> None:
     content = problem_content(problem, "bar.mesh", mirror=plane)
     path.write_text(json.dumps(content))
     assert problem_body(path).mirror == plane
-    path.write_bytes(BOM_UTF8 + path.read_bytes())  # as editors of Windows do
+    path.write_bytes(BOM_UTF8 + path.read_bytes())  # as editors on Windows do
     assert problem_body(path).mirror == plane
     for damaged, message in (
         ({"normal": [1, 0]}, r"bar.json: mirror.normal must be \[x, y, z\]"),

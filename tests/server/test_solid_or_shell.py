@@ -138,7 +138,9 @@ def test_tets_are_no_shell(tmp_path: Path) -> None:
         bodies.of(0.1)
 
 
-def test_a_material_that_shells_have_not_becomes_one_with_the_same_moduli(tmp_path: Path) -> None:
+def test_a_material_that_shells_lack_is_replaced_by_one_with_the_same_moduli(
+    tmp_path: Path,
+) -> None:
     body = mesh_body(surface_file(tmp_path, closed=False), stage=no_stage)
     moduli = np.linspace(1.0, 3.0, 7)
     fitted = fitted_material(Corotational(lam=0.5, mu=moduli), body.mesh)

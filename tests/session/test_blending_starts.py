@@ -55,7 +55,7 @@ def by_a_leap(model: InterpolationModel, share: float, *, start: float) -> Float
 @pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
 @pytest.mark.parametrize("start", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("name", ["helix_model", "twisted_helix"])
-def test_a_leap_ends_where_small_steps_end(
+def test_a_jump_ends_where_small_steps_end(
     name: str, share: float, start: float, request: pytest.FixtureRequest
 ) -> None:
     model: InterpolationModel = request.getfixturevalue(name)
@@ -63,7 +63,7 @@ def test_a_leap_ends_where_small_steps_end(
     assert np.abs(leap - by_small_steps(model, share)).max() < 1e-3 * model.problem.mesh.diagonal
 
 
-def test_without_training_data_a_leap_may_end_elsewhere(twisted_helix: InterpolationModel) -> None:
+def test_without_training_data_a_jump_may_end_elsewhere(twisted_helix: InterpolationModel) -> None:
     """Without the nearest sample as a start, a twist of a whole turn stays locked in."""
     size = twisted_helix.problem.mesh.diagonal
     bare = untrained(twisted_helix)
@@ -89,7 +89,7 @@ def test_solving_anew_leaves_a_minimum_that_is_not_the_lowest(
     assert session.solve_anew().start == "last frame"
 
 
-def test_a_leap_starts_from_the_nearest_sample(helix_model: InterpolationModel) -> None:
+def test_a_jump_starts_from_the_nearest_sample(helix_model: InterpolationModel) -> None:
     """After a single step from the other end, the energy is below that of the sample."""
     known = zip(
         helix_model.training_parameters[:10], helix_model.training_coordinates[:10], strict=True

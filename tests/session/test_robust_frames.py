@@ -61,7 +61,7 @@ def test_any_motion_ends_soon_with_numbers(
 def test_a_session_comes_back_from_far_beyond_the_domain(
     posing_model: PosingModel, diagonals: float
 ) -> None:
-    """As after a translation in millimetres on a mesh in metres."""
+    """This happens after a translation in millimetres on a mesh in metres."""
     near = {"head": ((0.1, 0.0, 0.2), (0.0, 0.1, 0.0))}
     session, fresh = posing_model.session(), posing_model.session()
     fresh.move_all(near)

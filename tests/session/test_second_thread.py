@@ -1,4 +1,4 @@
-"""Live solves on two threads give the bits of one, also after a fork and with many callers."""
+"""Live solves on two threads are bitwise those on one, after a fork and with many callers, too."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ def print_walk_on_one_processor(name: str) -> None:
 
 @affinity
 @pytest.mark.parametrize("name", LOOPS)
-def test_one_processor_makes_the_same_bits(name: str) -> None:
+def test_one_processor_gives_the_same_bits(name: str) -> None:
     code = f"from {__name__} import print_walk_on_one_processor as run; run({name!r})"
     alone = subprocess.run(
         [sys.executable, "-c", code], check=True, capture_output=True, text=True, cwd=os.getcwd()

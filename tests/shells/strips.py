@@ -68,7 +68,7 @@ def shell_model(
 
 
 def blended_strips(material: Material | None = None) -> InterpolationModel:
-    """A strip, by default as rigid as possible: bent, straight and wide, in 10 dimensions."""
+    """A strip, as-rigid-as-possible by default: bent, straight and wide, in 10 dimensions."""
     mesh = strip(12, 3)
     along, across = _along(mesh), mesh.vertices[:, 1]
     straight = np.stack([np.zeros_like(along), across, 2 * along], axis=1)

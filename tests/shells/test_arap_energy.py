@@ -32,7 +32,7 @@ STATES: dict[str, tuple[ShellMesh, FloatArray]] = {
 
 @pytest.fixture(params=[0.0, 0.2], ids=["rings", "radius"], scope="module")
 def radius(request: pytest.FixtureRequest) -> float:
-    """Of the stars: one ring around every vertex, or a fifth of the diagonal."""
+    """The radius of the stars: zero for one-rings, or a fifth of the diagonal."""
     return float(request.param)
 
 

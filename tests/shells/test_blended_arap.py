@@ -1,4 +1,4 @@
-"""Blends of surfaces that are as rigid as possible: energies, their few stars, models."""
+"""Blends of as-rigid-as-possible surfaces: energies, their few stars, models."""
 
 from __future__ import annotations
 
@@ -202,7 +202,7 @@ def test_paths_are_continuous_and_the_same_both_ways(model: InterpolationModel) 
 
 
 def test_newton_finds_the_same_solutions(model: InterpolationModel) -> None:
-    """In a few iterations: its Hessians have all pairs of vertices in a star."""
+    """It takes a few iterations: its Hessians have all pairs of vertices in a star."""
     one, weights = model.problem, sample(model.problem.domain, 3, seed=3)
     fast, newton = (
         solve_snapshots(

@@ -50,7 +50,7 @@ def model(request: pytest.FixtureRequest) -> PosingModel:
 
 
 def angles(mesh: ShellMesh, shape: FloatArray) -> FloatArray:
-    """Of all hinges, in (-pi, pi]."""
+    """Angles of all hinges, in (-pi, pi]."""
     v0, v1, v2, v3 = (shape[mesh.hinges[:, k]] for k in range(4))
     edge = v1 - v0
     first, second = np.cross(edge, v2 - v0), np.cross(v3 - v0, edge)

@@ -71,7 +71,7 @@ def test_a_homogeneous_strain_has_the_energy_of_its_density(
 
 
 @each
-def test_a_strip_under_tension_has_the_solid_s_young_modulus_and_poisson_ratio(
+def test_a_strip_under_tension_has_the_moduli_of_the_solid(
     material: Material,
 ) -> None:
     young, poisson = 2.0, 0.4
@@ -194,7 +194,7 @@ def cylinder_ratio(mesh: ShellMesh, direction: float, curvature: float = 0.2) ->
     return float(bent / (rigidity / 2 * curvature**2 * inner))
 
 
-def test_a_plate_bent_to_a_cylinder_has_the_continuum_s_energy() -> None:
+def test_a_plate_bent_to_a_cylinder_has_the_energy_of_the_continuum() -> None:
     """Equilateral triangles, in every direction; the error falls with the width of the margin."""
     for direction in (0.0, 0.3, 1.2):
         errors = [
@@ -243,7 +243,7 @@ def hinge_angles(mesh: ShellMesh) -> FloatArray:
 
 @each
 def test_a_developable_strip_only_bends(material: Material) -> None:
-    """Rolled by an isometry the membrane's share falls at order four, and not the hinges'."""
+    """If it is rolled by an isometry, only the membrane's share falls at order four."""
     shares = []
     for n in (8, 16, 32):
         mesh = sheet(n, n, thickness=0.05)
@@ -269,7 +269,7 @@ def test_per_triangle_moduli_are_those_of_their_triangles() -> None:
     assert same.value(x) == even.value(x)
 
 
-def test_what_triangles_do_not_need_of_their_rows_is_zero() -> None:
+def test_numbers_that_triangles_do_not_use_are_zero() -> None:
     mesh = irregular(20)
     rows = element_material(mesh, StVK(), who="test").moduli
     assert not rows[: len(mesh.triangles), 9:].any()

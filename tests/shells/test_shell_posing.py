@@ -60,7 +60,7 @@ def test_both_solvers_end_where_no_force_is_left(kind: type[StVK | StableNeoHook
         np.testing.assert_allclose(fast, newton, atol=1e-4 * np.abs(newton - problem.base).max())
 
 
-def test_samples_have_the_same_bits_for_any_number_of_threads(problem: PosingProblem) -> None:
+def test_samples_are_bitwise_the_same_for_any_number_of_threads(problem: PosingProblem) -> None:
     samples = sample(problem.domain, 9, seed=1)
     one, two = (solve_snapshots(problem, samples, threads=threads).shapes for threads in (1, 2))
     np.testing.assert_array_equal(one, two)

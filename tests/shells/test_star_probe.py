@@ -1,4 +1,4 @@
-"""Residuals of surfaces that are as rigid as possible: those of the full objective."""
+"""Residuals of as-rigid-as-possible surfaces are those of the full objective."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ def matrix_of(hats: core.StarHats, vertices: int) -> csr_array:
 
 
 def distances(mesh: ShellMesh) -> FloatArray:
-    """Along edges, from all vertices to all."""
+    """Distances along edges between all vertices."""
     a, b = np.concatenate([mesh.triangles[:, [i, (i + 1) % 3]] for i in range(3)]).T
     lengths = np.linalg.norm(mesh.vertices[a] - mesh.vertices[b], axis=1)
     count = len(mesh.vertices)
@@ -66,7 +66,7 @@ def test_a_mesh_has_the_same_stars_in_all_frames_and_units() -> None:
             np.testing.assert_array_equal(one, other)
 
 
-def test_edges_are_as_long_as_on_average_in_all_poses() -> None:
+def test_edge_lengths_are_means_over_all_poses() -> None:
     ball = sphere(2)
     poses = np.stack([ball.vertices, 3.0 * ball.vertices])
     for one, other in zip(
@@ -104,7 +104,7 @@ def test_a_finer_surface_bends_as_a_coarser_one() -> None:
 
 @pytest.mark.parametrize("radius", [0.02, 0.04])
 def test_a_surface_bends_as_a_plate_of_nearly_twice_the_radius(radius: float) -> None:
-    """Of the same membrane; by the energy of a sheet that is rolled to a cylinder."""
+    """The plate has the same membrane. Both energies are those of a sheet rolled to a cylinder."""
     flat = sheet(120, 120, thickness=1.0, alternating=True)
     curvature, material = 0.5, ARAP(radius=radius)
     bent = ElasticEnergy(flat, material).value(rolled(flat.vertices, curvature))

@@ -105,7 +105,7 @@ def sent_once(
 ) -> None:
     """A run sends its problem to each worker process once, and not with later blocks.
 
-    Samples have the bits of one call, whichever worker solves them.
+    Samples are bitwise those of one call, whichever worker solves them.
     """
     solvers = watched_solvers(executor, monkeypatch)
     work, backend = Work.of(problem, 24), backend_of(executor, problem)

@@ -50,7 +50,7 @@ def scalar_hessian(x: FloatArray, problem: InterpolationProblem = PROBLEM) -> Fl
 
 
 def smallest_stretch(x: FloatArray) -> float:
-    """The least singular value of any tet, relative to any pose."""
+    """The smallest singular value of any tet, relative to any pose."""
     tets, shape = PROBLEM.poses.tets, x.reshape(-1, 3)
     edges = shape[tets[:, 1:]] - shape[tets[:, :1]]
     least = np.inf

@@ -1,4 +1,4 @@
-"""Blocks on an executor: the bits of a local run, one copy of the problem, nothing lost."""
+"""Blocks on an executor: bitwise as in a local run, one copy of the problem, nothing lost."""
 
 from __future__ import annotations
 
@@ -32,7 +32,9 @@ def work() -> Work:
 
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("size", [1, 5, 8])
-def test_threads_give_the_bits_of_one_call(work: Work, solver: Solver, size: int) -> None:
+def test_threads_give_bitwise_the_results_of_one_call(
+    work: Work, solver: Solver, size: int
+) -> None:
     """Any division of the samples into blocks and packs gives them."""
     options = replace(OPTIONS, solver=solver)
     with ThreadPoolExecutor(3) as pool:

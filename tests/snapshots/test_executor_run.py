@@ -1,4 +1,4 @@
-"""Snapshots of an executor: the bits of a local run, and no finished sample is lost."""
+"""Snapshots of an executor are bitwise those of a local run, and no finished sample is lost."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def posing() -> PosingProblem:
 
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("block", [3, 16])
-def test_an_executor_gives_the_bits_of_this_machine(
+def test_an_executor_gives_bitwise_the_results_of_this_machine(
     executor: Executor, posing: PosingProblem, solver: Solver, block: int
 ) -> None:
     samples = parameters(posing, 25)
@@ -59,7 +59,7 @@ def test_an_executor_gives_the_bits_of_this_machine(
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_samples_between_poses_have_the_same_bits_beyond_the_patience(
+def test_samples_between_poses_are_bitwise_the_same_beyond_the_patience(
     executor: Executor, monkeypatch: pytest.MonkeyPatch, solver: Solver
 ) -> None:
     monkeypatch.setattr(solver_traits, "PATIENCE", WORKERS_PATIENCE)

@@ -1,4 +1,4 @@
-"""Samples between poses have the same bits for any threads, neighbours and interruptions."""
+"""Samples between poses are bitwise the same for any threads, neighbours and interruptions."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ def values(snapshots: Snapshots) -> list[float]:
 def test_a_known_solution_takes_no_iterations(
     problem: PosingProblem, known: Snapshots, solver: Solver
 ) -> None:
-    """In single precision there may be one, from a number to its rounding."""
+    """In single precision there may be one iteration, from a number to its rounding."""
     wanted = known.parameters[[17, 3, 8]]
     found = solve_snapshots(
         problem, wanted, options=SolverOptions(solver=solver), threads=1, known=known
@@ -87,7 +87,7 @@ def test_later_blocks_start_from_them_too(problem: PosingProblem, known: Snapsho
 
 
 def test_samples_that_did_not_converge_are_not_starts(problem: PosingProblem) -> None:
-    """They may be anywhere; a run without them has the same bits."""
+    """They may be anywhere; a run without them is bitwise the same."""
     samples, wanted = parameters(problem, 6), parameters(problem, 6, seed=9)
     whole = solve_snapshots(problem, samples, threads=1)
     middle = int(np.median([report.iterations for report in whole.reports]))

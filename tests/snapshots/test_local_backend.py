@@ -1,4 +1,4 @@
-"""Threads that share a queue: the bits of one call, each sample once, and all threads end."""
+"""Threads that share a queue: bitwise as in one call, each sample once, and all threads end."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def collected(backend: LocalBackend, count: int) -> dict[int, Outcome]:
 @pytest.mark.parametrize("solver", SOLVERS)
 @settings(max_examples=12)
 @given(seed=st.integers(0, 2**32), threads=st.integers(1, 4), missing=st.integers(0, 10))
-def test_samples_in_any_order_and_portions_have_the_bits_of_one_call(
+def test_samples_in_any_order_and_portions_are_bitwise_those_of_one_call(
     expected: dict[Solver, dict[int, Outcome]],
     solver: Solver,
     seed: int,

@@ -1,4 +1,4 @@
-"""What L-BFGS asks of a sample has the same bits in packs of every width.
+"""What L-BFGS asks of a sample is bitwise the same in packs of every width.
 
 Solvers get narrower towards the end of their work, and when they do depends on the number of
 threads. A compiler may contract either product of x * y + z * w to a multiply-add, and does not
@@ -82,7 +82,7 @@ def in_packs(
 @pytest.mark.parametrize(
     ("make", "kind"), CASES, ids=lambda case: getattr(case, "kind", None) or case.__name__
 )
-def test_packs_of_every_width_have_the_same_bits(
+def test_packs_of_every_width_give_the_same_bits(
     make: Callable[[type[Material]], Problem], kind: type[Material], single: bool
 ) -> None:
     problem = make(kind)

@@ -1,4 +1,4 @@
-"""Rigid motions of patches in the seed of blends of surfaces that are as rigid as possible."""
+"""Rigid motions of patches in the seed of blends of as-rigid-as-possible surfaces."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def test_corrections_are_newton_steps_for_motions_of_the_patches(
     assert left_by_correction(problem, solved.displacements[0], wanted[0]) < 0.15
 
 
-def test_bending_that_the_scalar_matrix_takes_for_stiff_is_undone_at_once(
+def test_bending_that_the_scalar_matrix_mistakes_for_stiff_is_undone_at_once(
     problem: InterpolationProblem, solved: Snapshots, wanted: FloatArray
 ) -> None:
     """Eight steps from a shape that is bent a little more than that of least energy."""
@@ -174,7 +174,7 @@ def test_surfaces_of_a_few_triangles_have_patches_that_hardly_turn(size: tuple[i
 def test_a_polish_ends_near_the_full_solution_in_ten_iterations(
     problem: InterpolationProblem, solved: Snapshots, wanted: FloatArray
 ) -> None:
-    """The subspace knows neither these blends nor how to relax them; the patches do."""
+    """The subspace contains neither these blends nor their relaxation; the patches do."""
     few = solved.select(np.arange(len(solved)) < 4)
     session = reduce(problem, snapshot_pca(few, dimension=3), snapshots=few).session()
     mass = session.model.subspace.mass

@@ -208,7 +208,7 @@ def test_units_do_not_matter_or_are_reported(scale: float) -> None:
 
 @pytest.mark.parametrize("scale", [1e-13, 1e-11, 1e13])
 def test_the_first_gradient_and_the_guesses_are_in_range_in_any_unit(scale: float) -> None:
-    """In single precision: guesses were not finite, and the first slope of a solve was zero."""
+    """In single precision, guesses were once not finite, and the first slope was zero."""
     here, there = posing_bar(), bar_in_unit(scale)
     samples = parameters(here, 4)
     units = np.array([scale, scale, scale, 1.0, 1.0, 1.0])

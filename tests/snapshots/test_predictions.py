@@ -56,7 +56,7 @@ def model(problem: InterpolationProblem, solved: Snapshots) -> InterpolationMode
 
 @pytest.fixture(scope="module")
 def predictions(model: InterpolationModel, wanted: FloatArray) -> Predictions:
-    """Blends have no Hessians by default; here they stand for slow motions, which have."""
+    """Blends have no Hessians by default; here they stand in for slow motions, which have them."""
     return predicted_solutions(model, wanted, hessians=True)
 
 

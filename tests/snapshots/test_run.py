@@ -1,4 +1,4 @@
-"""A run has the same bits whichever sample finishes first and wherever it was stopped."""
+"""A run is bitwise the same whichever sample finishes first and wherever it was stopped."""
 
 from __future__ import annotations
 

@@ -64,7 +64,7 @@ def test_the_cost_of_settling_depends_less_on_the_mesh(small: PosingProblem) -> 
 
 
 def test_a_tolerance_alone_tests_only_the_energy(small: PosingProblem) -> None:
-    """A run with a given tolerance has the same bits as one without the other test."""
+    """A run with a given tolerance is bitwise the same as one without the other test."""
     assert SolverOptions(tolerance=1e-7).resolved(small).settling == 0.0
     given, never = solved(small, tolerance=1e-7), solved(small, tolerance=1e-7, settling=0.0)
     assert np.array_equal(given.shapes, never.shapes)

@@ -224,8 +224,8 @@ SHAPES = planted(np.array([2.0, 1.0, 0.5]), 5)
             {"dimension": 2, "energy_fraction": 0.5},
             "pca: give either dimension or energy_fraction",
         ),
-        (SHAPES, {"dimension": 0}, "dimension 0 is not between 1 and 3"),
-        (SHAPES, {"dimension": -1}, "dimension -1 is not between 1 and 3"),
+        (SHAPES, {"dimension": 0}, "dimension is 0, but must be at least 1"),
+        (SHAPES, {"dimension": -1}, "dimension is -1, but must be at least 1"),
         (
             SHAPES,
             {"dimension": 9},

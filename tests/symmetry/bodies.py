@@ -13,7 +13,7 @@ from snapspace.generators import creature_handles
 
 from ..snapshots.creatures import creature
 
-#: Of the creature: its vertices are mirror images of each other.
+#: Mirror plane of the creature, whose vertices are mirror images of each other.
 PLANE = MirrorPlane((0, 1, 0))
 
 

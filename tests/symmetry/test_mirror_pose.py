@@ -32,7 +32,7 @@ def problem() -> PosingProblem:
     return mirror_handle(one_ear(), "left ear", plane=PLANE)
 
 
-#: Of the displacement: 58 of the creature's 5019 tets are not mirror images of others.
+#: Share of the displacement; 58 of the creature's 5019 tets are not mirror images of others.
 CLOSE = 3e-3
 
 
@@ -111,7 +111,7 @@ def test_it_is_the_mirror_image_of_the_shape(model: PosingModel) -> None:
     assert np.abs(before - image(before)).max() > 0.2 * size
 
 
-def test_twice_is_the_pose_itself(model: PosingModel) -> None:
+def test_mirroring_twice_gives_the_pose_itself(model: PosingModel) -> None:
     session = posed(model)
     motions, shape = session.motions, session.vertices
     mirror_pose(session)

@@ -51,7 +51,7 @@ def test_both_sides_may_have_different_triangles() -> None:
     assert abs(plane.point[1]) < 0.005
 
 
-def test_of_several_planes_that_across_x_is_taken() -> None:
+def test_among_several_planes_that_across_x_is_taken() -> None:
     points, faces = surface(bar(6, 2, 3, length=3, width=1, height=1.5))
     assert mirror_plane(points[:, [1, 2, 0]], faces).normal == (1, 0, 0)
 

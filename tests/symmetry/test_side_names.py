@@ -44,6 +44,6 @@ WORDS = st.sampled_from(
 
 
 @given(st.lists(WORDS, min_size=1, max_size=6).map("".join).filter(str.strip))
-def test_twice_is_the_name_itself(name: str) -> None:
+def test_mirroring_twice_gives_the_name_itself(name: str) -> None:
     assert mirrored_name(name) != name
     assert mirrored_name(mirrored_name(name)) == name

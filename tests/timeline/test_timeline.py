@@ -58,7 +58,7 @@ def test_easings_hold_run_and_glide() -> None:
 
 
 def test_a_session_is_at_each_key_at_its_time(posing_model: PosingModel) -> None:
-    """A handle stays where the key before had it, and begins at rest."""
+    """A handle begins at rest, and stays where the previous key had it."""
     session, other = posing_model.session(), posing_model.session()
     session.move("belly", translation=(0.1, 0.0, 0.0))  # forgotten: a timeline begins with its key
     frames = [session.vertices for _ in session.animate(WAVE, frames=7)]  # every quarter second
@@ -93,7 +93,7 @@ def test_weights_are_named(blending_model: InterpolationModel) -> None:
 
 def test_a_file_gives_the_timeline_back(tmp_path: Path) -> None:
     path = write_timeline(tmp_path / "wave.json", WAVE)
-    path.write_bytes(codecs.BOM_UTF8 + path.read_bytes())  # as editors of Windows do
+    path.write_bytes(codecs.BOM_UTF8 + path.read_bytes())  # as editors on Windows do
     again = read_timeline(path)
     assert (again.kind, again.loop, len(again.keys)) == ("posing", True, 3)
     for key, known in zip(again.keys, WAVE.keys, strict=True):

@@ -52,7 +52,7 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def posed_surface() -> PosingModel:
-    """A strip that is as rigid as possible."""
+    """An as-rigid-as-possible strip."""
     return shell_model(ARAP())
 
 

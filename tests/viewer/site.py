@@ -1,4 +1,4 @@
-"""A site with the component, as anybody's own: files of a folder from a plain server."""
+"""A site with the component, like any other site: files of a folder from a plain server."""
 
 from __future__ import annotations
 

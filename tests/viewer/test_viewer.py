@@ -60,7 +60,7 @@ def test_a_script_blends_poses_as_python_does(
     assert viewer.run("viewer.weights") == {"rest": 0.25, "bent": 0.75, "twisted": 0}
 
 
-def test_surfaces_that_are_as_rigid_as_possible_are_posed_and_blended_too(
+def test_as_rigid_as_possible_surfaces_are_posed_and_blended_too(
     opened: Open, posed_surface: PosingModel, blended_surfaces: InterpolationModel
 ) -> None:
     viewer, handles = opened("posed-surface.html"), posed_surface.problem.handles.names
@@ -213,7 +213,7 @@ def test_a_picture_is_transparent_and_has_the_size_that_was_asked_for(opened: Op
     assert picture[0, 0, 3] == 0 and (picture[..., 3] == 255).any()
 
 
-def test_what_is_no_model_is_told_and_another_one_can_follow(
+def test_what_is_no_model_is_reported_and_another_one_can_follow(
     viewer: Viewer, folder: Path, address: str
 ) -> None:
     (folder / "broken.snapspace").write_bytes(b"no model")

@@ -8,7 +8,7 @@ export interface OwnMaterial {
   readonly roughness: number;
   /** Texels with a smaller alpha are not drawn. */
   readonly alphaCutoff: number | null;
-  /** How many triangles have it, after those of the materials before. */
+  /** Number of its triangles, which follow those of the materials before. */
   readonly triangles: number;
 }
 
@@ -36,12 +36,13 @@ interface Stored {
     alpha_cutoff: number | null;
     triangles: number;
   }[];
-  /** In model files, where each texture starts among the files beside the surface, and its size; null: it is apart. */
+  /** In model files, where each texture starts among the files beside the surface, and its size; null: it is stored
+   * separately. */
   textures?: ([start: number, size: number] | null)[];
 }
 
 export function readAppearance(container: Container, about: unknown, vertices: number): Appearance | null {
-  if (!about) return null; // also in files from before there was one
+  if (!about) return null; // also in files from before appearances
   const [count] = container.shape("own_points", 1);
   const [triangles] = container.shape("own_triangles", 2);
   const stored = about as Stored;

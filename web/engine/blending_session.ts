@@ -84,7 +84,7 @@ export class BlendingSession {
     return found;
   }
 
-  /** Moves time on by dt seconds, in which the weights become these: the shape swings after them. */
+  /** Advances time by dt seconds, in which the weights become these: the shape swings after them. */
   step(dt: number, weights: readonly number[] = this.#weights): FrameReport {
     this.#check(weights);
     const [before, last] = [this.#weights, this.time.moving(IDENTITY)];
@@ -99,7 +99,7 @@ export class BlendingSession {
     return this.time.speed(IDENTITY) / this.model.coordinateScale;
   }
 
-  /** Solves for what is set, from the present shape. */
+  /** Solves for the present weights, from the present shape. */
   solve(): FrameReport {
     this.time.stop();
     return this.#core.solve(this.#stop);
@@ -117,7 +117,7 @@ export class BlendingSession {
     this.#core.q = new Float64Array(this.dimension);
   }
 
-  /** Poses whose weights are below the least one that was sampled. */
+  /** Poses whose weights are below the smallest one that was sampled. */
   get outside(): string[] {
     return this.model.poses.filter((_, pose) => this.#weights[pose] < this.model.lowestWeight - 1e-9);
   }
@@ -128,7 +128,7 @@ export class BlendingSession {
     return this.#weights.every((w) => w >= 0) || null;
   }
 
-  /** The least and the greatest weight of one of some poses, see `weightEnds`. Many coordinates take milliseconds. */
+  /** The smallest and the largest weight of one of some poses, see `weightEnds`. Many coordinates take milliseconds. */
   ends(poses: readonly number[], pose: number): WeightEnds {
     return weightEnds(this.model, this.#certain, poses, pose);
   }

@@ -4,7 +4,7 @@ import type { Model } from "./model.ts";
 
 /** Confidence of the bounds. */
 export const CONFIDENCE = 0.9;
-/** Displacements below this share of those that were calibrated are rest: nothing is off there. */
+/** Displacements below this share of the calibrated ones count as rest, where a frame has no error. */
 const REST = 1e-3;
 
 /** How far a frame is from the full solution, over its distance from the rest or mean shape; as Certificate of the

@@ -9,7 +9,7 @@ export interface Ranges {
 }
 
 export interface ChosenHandle extends Ranges {
-  /** Stays while the name changes. */
+  /** Stays the same when the name changes. */
   readonly key: number;
   readonly name: string;
   /** Ascending. */
@@ -44,7 +44,7 @@ export function choiceOf(handles: readonly HandleChoice[], parts: readonly PartC
   return { selected: NOTHING, handles: chosen, parts: shown };
 }
 
-/** The handles as the server takes them, those that hold the shape first: so they are in models, too. */
+/** The handles in the order of the server and of models: those that hold the shape come first. */
 export function inOrder(handles: readonly ChosenHandle[]): ChosenHandle[] {
   return [...handles.filter(({ moving }) => !moving), ...handles.filter(({ moving }) => moving)];
 }
@@ -70,7 +70,7 @@ export function withNewHandle(choice: Choice): Choice {
   return { ...choice, selected: NOTHING, handles: [...others, own] };
 }
 
-/** Adds handles that a server made of kept points, unless it has them. */
+/** Adds handles that a server made of kept points, unless the choice has them. */
 export function withKept(choice: Choice, kept: readonly HandleChoice[]): Choice {
   const names = new Set(choice.handles.map(({ name }) => name));
   const next = 1 + Math.max(-1, ...choice.handles.map(({ key }) => key));
@@ -114,7 +114,7 @@ export function withMirrored(choice: Choice, key: number, image: HandleChoice): 
   return { ...choice, handles };
 }
 
-/** Takes the selected vertices out of all handles. */
+/** Removes the selected vertices from all handles. */
 export function withFree(choice: Choice): Choice {
   return { ...choice, handles: withoutVertices(choice.handles, choice.selected) };
 }

@@ -99,13 +99,14 @@ export class Core {
     this.#check(this.#call.snapspace_set_q(this.#session, this.#given(q)));
   }
 
-  /** The reduced objective at coordinates, for what is set. */
+  /** The reduced objective at coordinates, for the present motions or weights. */
   value(q: ArrayLike<number>): number {
     this.#check(this.#call.snapspace_value(this.#session, this.#given(q), this.#report));
     return this.#memory.doubles(this.#report, 1)[0];
   }
 
-  /** The full residual at sampled vertices, for the present shape and what is set; null for a model without estimator. */
+  /** The full residual at sampled vertices, for the present shape and motions or weights; null for a model without
+   * estimator. */
   residual(): number | null {
     if (!this.#hasProbe) return null;
     this.#check(this.#call.snapspace_residual(this.#session, this.#report));

@@ -23,9 +23,9 @@ export interface ElementProbe {
   readonly rests: readonly Float64Array[];
   /** Four corners each. */
   readonly tets: Int32Array;
-  /** Of these tets. */
+  /** The material of these tets. */
   readonly material: Material;
-  /** The corners where residuals are read, and what their squares count. */
+  /** The corners where residuals are read, and the weights of their squares. */
   readonly places: Int32Array;
   readonly weights: Float64Array;
   /** Pinned vertices among these corners, of posing models. */
@@ -39,13 +39,13 @@ export interface StarProbe {
   readonly origins: Float64Array;
   /** Poses x d x numbers, those of the modes. */
   readonly modes: Float32Array<ArrayBuffer>;
-  /** Of poses x stars. */
+  /** The material: one row for each pose and star. */
   readonly material: Material;
   /** Pairs of a star and a vertex that its stress pulls at, and poses x pairs x 3 what it is multiplied by there. */
   readonly partStars: Int32Array;
   readonly partPlaces: Int32Array;
   readonly partVectors: Float64Array;
-  /** What the squares of residuals count, one number per vertex. */
+  /** The weights of the squared residuals, one per vertex. */
   readonly weights: Float64Array;
   /** Pinned vertices among them, of posing models. */
   readonly pins: Pins;

@@ -1,6 +1,6 @@
 const WIDTHS = [4, 2, 1, 0.5]; // in median distances to the nearest known frame
 const GAIN = 0.02; // a narrower kernel must predict left-out ratios better by this share
-const FAR = 1e-3; // the least weight of a frame, however far away
+const FAR = 1e-3; // the smallest weight of a frame, however far away
 
 /** Ratios of true errors to an indicator, smoothed over frames, with bounds: a kernel mean of logarithms and the
  * jackknife+ around it. As snapspace/certificate/local_ratios.py, which names the sources. */

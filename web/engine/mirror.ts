@@ -17,7 +17,7 @@ export interface NoMirror {
 
 const NOT_KNOWN = "This model does not say which handles are counterparts.";
 
-/** For model files, which do not have it. */
+/** The reason for model files, which do not say how poses are mirrored. */
 export const NO_MIRROR: NoMirror = {
   refused: `${NOT_KNOWN} Open it with snapspace view, or export it as a page.`,
 };

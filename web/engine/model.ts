@@ -23,7 +23,7 @@ interface ModelBase {
   readonly coordinateScale: number;
   /** Diagonal of the mesh at rest, or of the first pose. */
   readonly diagonal: number;
-  /** Name of the material. The page knows no more of it: the core does. */
+  /** Name of the material. The page knows only the name; the core knows the rest. */
   readonly material: string;
   /** The materials of the user's own file; null without any. */
   readonly appearance: Appearance | null;
@@ -38,17 +38,18 @@ export interface Material {
   readonly kind: string;
   /** Rows of moduli, one for all tets or one per tet. */
   readonly rows: number;
-  /** In the density's order; or by name, where there is one row. */
+  /** Moduli in the density's order; or by name, if there is one row. */
   readonly moduli: Float64Array<ArrayBuffer> | Readonly<Record<string, unknown>>;
-  /** Of the elements of a shell: there are three moduli per row, and the core makes the other numbers of these. */
+  /** Present for a shell: there are three moduli per row, and the core computes the other numbers from them. */
   readonly shell?: ShellElements;
 }
 
 /** Triangles and hinges of a shell at rest. */
 export interface ShellElements {
-  /** Their corners, elements x 4 x 3; of a blend those of the first pose. */
+  /** Their corners, elements x 4 x 3; for a blend, those of the first pose. */
   readonly points: Float64Array<ArrayBuffer>;
-  /** Four times the product of both areas at which a hinge has its whole stiffness: of a blend the geometric mean of all poses. */
+  /** Four times the product of both areas at which a hinge has its full stiffness: for a blend, the geometric mean of
+   * all poses. */
   readonly products: Float64Array<ArrayBuffer>;
 }
 
@@ -63,7 +64,7 @@ export interface PosingModel extends ModelBase {
   readonly handles: readonly Handle[];
   /** Index of the handle that a surface vertex belongs to, or -1. */
   readonly handleOfVertex: Int32Array<ArrayBuffer>;
-  /** The box of motions that was sampled, handle by handle; of those at rest, the first one too, zeros. */
+  /** The box of sampled motions, handle by handle; zeros for handles at rest, such as the first one. */
   readonly boxes: readonly Box[];
   /** How poses are mirrored, or why they cannot be. */
   readonly mirror: Mirror | NoMirror;
@@ -89,11 +90,11 @@ export interface Cubature {
   /** Displacement gradients of the modes, tets x 9 x dimension, or what the core makes them of; or with clusters those of
    * local coordinates, one cluster after the other, tets x 9 x rank. */
   readonly rows: Float32Array<ArrayBuffer> | CornerModes;
-  /** Clusters of tets with local coordinates; null without. */
+  /** Clusters of tets with local coordinates; null if there are none. */
   readonly clusters: Clusters | null;
   /** The volume that each tet stands for. */
   readonly weights: Float64Array<ArrayBuffer>;
-  /** Of these tets. */
+  /** The material of these tets. */
   readonly material: Material;
 }
 
@@ -114,11 +115,11 @@ export interface PoseQuartics {
 
 /** The blended energy as a sum over the same few tets of all poses; rows and weights are those of the first. */
 export interface BlendedCubature extends Cubature {
-  /** Corners of the tets in every pose, and at last in the mean shape: (poses + 1) x tets x 4 x 3. */
+  /** Corners of the tets in every pose, and finally in the mean shape: (poses + 1) x tets x 4 x 3. */
   readonly corners: Float64Array<ArrayBuffer>;
 }
 
-/** The blended energy of a surface that is as rigid as possible: a sum over the same few stars of all poses, and a quadratic
+/** The blended energy of an as-rigid-as-possible surface: a sum over the same few stars of all poses, and a quadratic
  * form. A star has its own rows, moduli and origin in every pose. */
 export interface BlendedStars {
   readonly kind: "stars";
@@ -126,7 +127,7 @@ export interface BlendedStars {
   readonly rows: Float32Array<ArrayBuffer>;
   /** The area in the first pose that each star stands for. */
   readonly weights: Float64Array<ArrayBuffer>;
-  /** Of all poses, pose by pose. */
+  /** The material of the stars in all poses, pose by pose. */
   readonly material: Material;
   /** The nine numbers at the mean shape, poses x stars x 9. */
   readonly origins: Float64Array<ArrayBuffer>;
@@ -154,7 +155,7 @@ export interface BlendingModel extends ModelBase {
   /** The poses registered to the mean shape, as tau + one mode per pose: with weights that sum to one
    * its shapes are the linear blends. */
   readonly poseSpace: ShapeSpace;
-  /** The least weight that was sampled. */
+  /** The smallest weight that was sampled. */
   readonly lowestWeight: number;
   readonly blends: PoseQuartics | BlendedCubature | BlendedStars;
   /** Weights and coordinates of the samples that the model was trained with. */

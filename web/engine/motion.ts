@@ -65,7 +65,7 @@ export function product(A: Rotation, B: Rotation): Rotation {
   ];
 }
 
-/** The motion about a centre at rest that is a rigid map. */
+/** A rigid map as a motion about a centre at rest. */
 export function motionOfMap(
   { rotation, shift }: RigidMap,
   center: Vector,

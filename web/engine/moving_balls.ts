@@ -1,7 +1,7 @@
 import type { ShapeSpace } from "./shape_space.ts";
 import type { SurfaceGroups } from "./surface_groups.ts";
 
-const SLACK = 1e-5; // of the radius, for rounding to single precision
+const SLACK = 1e-5; // share of the radius, for rounding to single precision
 
 /** A ball around each group of a surface, for every shape of a space, in the time of some hundred vertices.
  *

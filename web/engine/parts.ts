@@ -4,7 +4,7 @@ import { NOTHING } from "./selecting.ts";
 
 /** A part of the body that is stiffer or softer. */
 export interface ChosenPart {
-  /** Stays while the name changes. */
+  /** Stays the same when the name changes. */
   readonly key: number;
   readonly name: string;
   /** Ascending. Other parts and handles may have them too; the last part that has a vertex counts. */

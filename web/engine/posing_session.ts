@@ -20,7 +20,7 @@ import { beyondBox } from "./sampled_box.ts";
 import { TimeSteps } from "./time_steps.ts";
 
 const WARMING = 8; // solves
-const WARMING_SHARE = 0.05; // of the diagonal
+const WARMING_SHARE = 0.05; // share of the diagonal
 
 /** A motion of a handle from rest, about its centroid. */
 export interface Motion {
@@ -53,7 +53,7 @@ export class PosingSession {
     const { valueScale } = core;
     const { coordinateScale } = model;
     this.#stop = { tolerance: 1e-7, valueScale, coordinateScale, maxIterations: 300, maxEvaluations: 500 };
-    this.#set(model.handles.map(() => IDENTITY));
+    this.reset();
   }
 
   get dimension(): number {
@@ -83,27 +83,32 @@ export class PosingSession {
     return plus(this.model.handles[handle].center, this.motion(handle).translation);
   }
 
-  /** Puts a handle at a motion from rest, Euler angles in radians, and solves. */
+  /** Sets the motion of a handle from rest, with Euler angles in radians, and solves. */
   move(handle: number, euler: Vector, translation: Vector): FrameReport {
     return this.moveAll(new Map([[handle, { rotation: rotationOfEuler(euler), translation }]]));
   }
 
-  /** Puts some handles at motions from rest, and solves once. Motions whose energy is not finite are undone. */
+  /** Sets the motions of some handles from rest, and solves once. Motions whose energy is not finite are undone.
+   * After a jump to motions that are nearer to rest than to the last ones, the solve starts at rest: from a far shape
+   * it could take hundreds of iterations. */
   moveAll(motions: ReadonlyMap<number, Motion>): FrameReport {
-    const before = this.#maps;
+    const [before, last] = [this.#maps, offsetsOf(this.#relative)];
     this.#set(this.#mapsOf(motions));
+    const offsets = offsetsOf(this.#relative);
+    if (this.#distance(offsets, last) > this.#distance(offsets, []))
+      this.#core.q = new Float64Array(this.dimension);
     const report = this.solve();
-    if (report.status === "not_finite") this.#set(before);
+    if (report.status === "not_finite") this.#set(before); // such motions are never nearer to rest
     return report;
   }
 
-  /** Goes back to a frame that was solved before: motions of all handles from rest, and its coordinates. */
+  /** Returns to a frame that was solved before: motions of all handles from rest, and its coordinates. */
   restore(motions: readonly Motion[], q: ArrayLike<number>): void {
     this.#set(this.#mapsOf(new Map(motions.entries())));
     this.#core.q = q;
   }
 
-  /** Moves time on by dt seconds, in which some handles come to motions from rest: the body swings after them. */
+  /** Advances time by dt seconds, in which some handles get new motions from rest: the body swings after them. */
   step(dt: number, motions: ReadonlyMap<number, Motion> = new Map()): FrameReport {
     const [before, last] = [this.#maps, this.time.moving(this.#maps[0])];
     if (motions.size > 0) this.#set(this.#mapsOf(motions));
@@ -117,7 +122,7 @@ export class PosingSession {
     return this.time.speed(this.#maps[0]) / this.model.coordinateScale;
   }
 
-  /** Solves for what is set, from the present shape. */
+  /** Solves for the present motions, from the present shape. */
   solve(): FrameReport {
     this.time.stop();
     return this.#core.solve(this.#stop);
@@ -140,9 +145,7 @@ export class PosingSession {
     const { handles, diagonal } = this.model;
     for (let step = 1; step <= WARMING; step++) {
       const shift = (WARMING_SHARE * step * diagonal) / WARMING;
-      this.moveAll(
-        new Map([[handles.length - 1, { rotation: IDENTITY.rotation, translation: [shift, 0, 0] }]]),
-      );
+      this.move(handles.length - 1, [0, 0, 0], [shift, 0, 0]);
       follow();
     }
     this.reset();
@@ -151,15 +154,10 @@ export class PosingSession {
 
   /** The handles outside of the box of motions that was sampled, and how. */
   get outside(): readonly { handle: number; how: string }[] {
-    if (!this.#outside) {
-      this.#outside = [];
-      for (let handle = 1; handle < this.#relative.length; handle++) {
-        const { rotation, translation } = this.#relative[handle];
-        const how = beyondBox(this.model.boxes[handle], rotation, translation);
-        if (how) this.#outside.push({ handle, how });
-      }
-    }
-    return this.#outside;
+    return (this.#outside ??= this.#relative.flatMap(({ rotation, translation }, handle) => {
+      const how = handle > 0 && beyondBox(this.model.boxes[handle], rotation, translation);
+      return how ? { handle, how } : [];
+    }));
   }
 
   /** Euler angles of a handle's motion, in radians. */
@@ -175,6 +173,12 @@ export class PosingSession {
   /** Solves for pulled points beside the present handles. */
   solvePulled(pulls: Pulls): FrameReport {
     return pulls.solve(offsetsOf(this.#relative), this.carriedBy);
+  }
+
+  /** Distance between offsets of all handles, from rest for []; turns count with the body's size. */
+  #distance(offsets: readonly number[], from: readonly number[]): number {
+    const { diagonal } = this.model;
+    return Math.hypot(...offsets.map((x, i) => (x - (from[i] ?? 0)) * (i % 4 === 3 ? 1 : diagonal)));
   }
 
   #mapsOf(motions: ReadonlyMap<number, Motion>): readonly RigidMap[] {
@@ -202,10 +206,22 @@ export class PosingSession {
 
 /** Offsets [R - I | t] of all handles, by their motions seen from the first. */
 function offsetsOf(relative: readonly Motion[]): number[] {
-  const offsets: number[] = [];
-  for (const { rotation: R, translation: t } of relative)
-    offsets.push(R[0] - 1, R[1], R[2], t[0], R[3], R[4] - 1, R[5], t[1], R[6], R[7], R[8] - 1, t[2]);
-  return offsets.fill(0, 0, 12); // exactly
+  return relative
+    .flatMap(({ rotation: R, translation: t }) => [
+      R[0] - 1,
+      R[1],
+      R[2],
+      t[0],
+      R[3],
+      R[4] - 1,
+      R[5],
+      t[1],
+      R[6],
+      R[7],
+      R[8] - 1,
+      t[2],
+    ])
+    .fill(0, 0, 12); // exactly
 }
 
 /** A handle's motion as it is seen from the first one. */

@@ -12,11 +12,11 @@ import type { RigidSurface } from "./vertex_stars.ts";
 export interface FileBody {
   /** The shape at rest, or all poses. */
   readonly shapes: readonly Float64Array[];
-  /** Tets; of a shell, triangles and hinges. Triangles alone where a surface is as rigid as possible. */
+  /** Tets; triangles and hinges of a shell; or triangles alone of an as-rigid-as-possible surface. */
   readonly elements: Int32Array;
-  /** Of the elements. */
+  /** The material of the elements. */
   readonly material: Material;
-  /** A surface that is as rigid as possible, whose cubature has stars of its vertices; null for others. */
+  /** An as-rigid-as-possible surface, whose cubature has stars of its vertices; null for others. */
   readonly rigid: RigidSurface | null;
   readonly scales: Scales;
   /** Masses of the vertices at rest, or in the first pose. */

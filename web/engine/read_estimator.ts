@@ -46,14 +46,14 @@ export function estimatorOf(
   };
 }
 
-/** The vertices where residuals are read, and what their squares count. */
+/** The vertices where residuals are read, and the weights of their squares. */
 export interface ProbeSample {
   readonly vertices: Int32Array;
   readonly weights: Float64Array;
   readonly pins: FindPins;
 }
 
-/** Takes the elements around the sampled vertices. */
+/** A probe of the elements around the sampled vertices. */
 function elementProbe(
   { elements: tets, material }: FileBody,
   { basis, tau, rests }: Shapes,

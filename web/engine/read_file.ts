@@ -99,7 +99,7 @@ function readInterpolation(container: Container, name: string): Model {
 
   const mass = body.massAt(mean);
   const registeredPoses = shapes.map((shape) => registered(shape, mean, mass));
-  const offsets = new Float64Array(all.length); // of the registered poses from the mean shape
+  const offsets = new Float64Array(all.length); // from the mean shape to the registered poses
   registeredPoses.forEach((pose, k) =>
     offsets.set(
       pose.map((x, i) => x - mean[i]),

@@ -5,7 +5,8 @@ import type { ProbeSample, Shapes } from "./read_estimator.ts";
 import { KIND, starsIn } from "./read_stars.ts";
 import { oneRings, STAR_MODULI, VertexStars, type RigidSurface, type StarTriangles } from "./vertex_stars.ts";
 
-/** Takes the stars around the sampled vertices, whose rotations turn the forces there; as StarProbe of the Python package. */
+/** A probe of the stars around the sampled vertices, whose rotations turn the forces there; as StarProbe of the Python
+ * package. */
 export function starProbe(
   container: Container,
   surface: RigidSurface,

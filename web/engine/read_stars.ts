@@ -6,7 +6,7 @@ import { oneRings, STAR_MODULI, VertexStars, type RigidSurface, type StarTriangl
 /** The density of stars. */
 export const KIND = "shell-arap";
 
-/** The cubature of a surface that is as rigid as possible. For what its stars leave of the energy see `withRemainder`. */
+/** The cubature of an as-rigid-as-possible surface. For what its stars leave of the energy, see `withRemainder`. */
 export function starCubature(
   container: Container,
   rest: Float64Array,
@@ -31,7 +31,7 @@ export function withRemainder(container: Container, K: Float64Array<ArrayBuffer>
   return K.map((x, i) => x + remainder[i]);
 }
 
-/** The blended energy of a surface that is as rigid as possible; `poses` are registered to the mean shape. */
+/** The blended energy of an as-rigid-as-possible surface; `poses` are registered to the mean shape. */
 export function blendedStars(
   container: Container,
   poses: readonly Float64Array[],

@@ -12,7 +12,7 @@ export interface RestMesh {
   readonly shape: Float32Array<ArrayBuffer>;
   /** Triangles of the surface, outward. */
   readonly faces: Uint32Array<ArrayBuffer>;
-  /** The user's own materials; null for tets, and surfaces without. */
+  /** The user's own materials; null for tets, and for surfaces without any. */
   readonly appearance: Appearance | null;
 }
 

@@ -8,7 +8,7 @@ export interface Box {
 
 const ROUNDING = 1e-9;
 
-/** The box of each handle out of bounds for all moving ones, or rows of bounds for each of them. */
+/** The box of each handle, from common bounds of all moving ones or from a row of bounds for each. */
 export function boxesOf(
   domain: { translation: number[] | number[][]; angle: number[] | number[][] },
   handles: number,

@@ -6,7 +6,7 @@ import { surfaceGroups, type SurfaceGroups } from "./surface_groups.ts";
 
 /** Where a ray hits a surface. */
 export interface Hit {
-  /** In lengths of the direction. */
+  /** The distance along the ray, in lengths of the direction. */
   readonly along: number;
   readonly point: Vector;
   /** The corners of the triangle, the closest to the point first. */
@@ -42,7 +42,8 @@ export class ShapePicker {
     this.#stamps = new Uint32Array(space.vertices);
   }
 
-  /** Takes a shape, or the one at a share of the path from there to the goal. Costs nothing until something is picked. */
+  /** Sets the shape, or the one at a share of the path from there to the goal. Costs nothing until something is picked.
+   * */
   show(coefficients: ArrayLike<number>, share = 0): void {
     this.#coefficients = coefficients;
     this.#share = this.#goal ? share : 0;

@@ -6,7 +6,7 @@ import { hingesOf, triangleAreas } from "./triangles.ts";
 export interface Shell {
   /** Triangles with their last corner twice, and after them hinges: four corners each. */
   readonly elements: Int32Array;
-  /** Of the elements. */
+  /** The material of the elements. */
   readonly material: Material;
   /** Unit of energy: that of bending by a curvature of sqrt(2) over the diagonal, times its square. */
   readonly bendingScale: number;

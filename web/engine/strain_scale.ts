@@ -2,7 +2,7 @@ import { triangleStrains, type Rests } from "./membrane_strain.ts";
 import { reconstruct, type ShapeSpace } from "./shape_space.ts";
 
 const TRIANGLES = 500;
-const SHARE = 0.97; // of the triangles are below the end of the scale
+const SHARE = 0.97; // share of the triangles below the end of the scale
 const LEAST = 0.01;
 const USED = 3; // a scale shrinks to a third and less: steps are up to 2.5
 const STEPS = [1, 2, 5, 10];
@@ -17,7 +17,7 @@ export class StrainScale {
   readonly #shape: Float32Array;
   #end = LEAST;
 
-  /** Takes the sampled triangles out of the surface, so that the cost does not grow with it. */
+  /** Copies the sampled triangles from the surface, so that the cost does not grow with it. */
   constructor(space: ShapeSpace, rests: Rests, faces: Uint32Array) {
     const count = faces.length / 3;
     const sampled = Math.min(count, TRIANGLES);

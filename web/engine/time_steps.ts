@@ -4,7 +4,7 @@ import { isSame, seenFrom, type RigidFrames } from "./rigid_frames.ts";
 
 /** How a body swings; as Dynamics of the Python package. */
 export interface Dynamics {
-  /** Of the softest vibration, in Hz. */
+  /** Frequency of the softest vibration, in Hz. */
   readonly frequency: number;
   /** Share of the critical damping of that vibration. */
   readonly damping: number;
@@ -70,7 +70,7 @@ export class TimeSteps {
     return Math.sqrt(squareOf(q, before)) / dt;
   }
 
-  /** Steps from `last` to what is set in the core. */
+  /** Steps from `last` to the motions or weights that are set in the core. */
   advance(last: Movement, frame: RigidMap, dt: number, stop: Termination): FrameReport {
     const target = this.#target(last, frame, dt);
     const { report, before } = this.#core.step(this.density / dt ** 2, target, stop);

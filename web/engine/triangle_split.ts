@@ -8,7 +8,7 @@ export function triangleCenters(shape: Float32Array, faces: Uint32Array): Float3
   return centers;
 }
 
-/** Brings the triangles of a range of `order` into two sides, along the axis in which their centres spread most: in the
+/** Splits the triangles of a range of `order` into two sides, along the axis in which their centres spread most: in the
  * middle, or by their number where that leaves one side empty. */
 export function splitInMiddle(
   order: Uint32Array,

@@ -6,10 +6,10 @@ export const STAR_MODULI = 12;
 /** Mean squared sines between the planes of a star and one normal, below which it is flat. */
 const FLAT = 1e-20;
 
-/** A surface that is as rigid as possible. */
+/** An as-rigid-as-possible surface. */
 export interface RigidSurface {
   readonly triangles: Int32Array;
-  /** Of each triangle, modulus times thickness. */
+  /** Modulus times thickness of each triangle. */
   readonly stiffness: Float64Array;
 }
 
@@ -83,7 +83,7 @@ export class VertexStars {
     return numbers;
   }
 
-  /** Those of these stars at some vertices, in the same order for all shapes of a surface. */
+  /** The parts of these stars at some vertices, in the same order for all shapes of a surface. */
   parts(vertices: Int32Array): StarParts {
     const place = new Map(Array.from(vertices, (vertex, i) => [vertex, i]));
     const [stars, places, vectors]: number[][] = [[], [], []];
@@ -107,11 +107,11 @@ export class VertexStars {
 
 interface Star {
   readonly area: number;
-  /** The same of area times stiffness. */
+  /** The same for area times stiffness. */
   readonly weight: number;
   /** L L^T is the mean of the projections onto the planes of the triangles. */
   readonly L: number[][];
-  /** By corner: the nine numbers are the sum of displacement (x) gradient. */
+  /** Gradients by corner: the nine numbers are the sum of displacement (x) gradient. */
   readonly gradients: Map<number, number[]>;
 }
 

@@ -1,14 +1,14 @@
 import type { CertainRange } from "./certain_range.ts";
 import type { BlendingModel } from "./model.ts";
 
-/** The least and the greatest weight of a pose. */
+/** The smallest and the largest weight of a pose. */
 export type WeightEnds = readonly [number, number];
 export const PLAIN_ENDS: WeightEnds = [0, 1];
 /** The widest range of sliders, even if minima exist beyond it. */
 const WIDEST: WeightEnds = [-1, 2];
 
-/** How far the weight of one of some poses may go while the others of them share the rest evenly: as far as there is
- * certainly a minimum, and where that is not known as far as was sampled. In whole percent, and not beyond `WIDEST`. */
+/** How far the weight of one of some poses may go while the others share the rest evenly: as far as a minimum certainly
+ * exists or, where that is not known, as far as was sampled. In whole percent, and not beyond `WIDEST`. */
 export function weightEnds(
   model: BlendingModel,
   certain: CertainRange | null,

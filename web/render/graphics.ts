@@ -71,7 +71,7 @@ export class Graphics {
     return program;
   }
 
-  /** Takes a program for what is drawn next. */
+  /** Selects the program for what is drawn next. */
   use(program: WebGLProgram): void {
     if (this.#used !== program) this.gl.useProgram(program);
     this.#used = program;

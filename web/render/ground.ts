@@ -30,7 +30,7 @@ export class Ground extends Mesh {
     this.renderOrder = -1; // it hides what is transparent and below it
   }
 
-  /** Of the darkest shadow. */
+  /** Opacity of the darkest shadow. */
   set opacity(opacity: number) {
     this.#opacity.value = opacity;
   }

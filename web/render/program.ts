@@ -45,7 +45,8 @@ export class Program {
     this.#program = begun(gl, vertex, fragment);
   }
 
-  /** Takes the program for what is drawn next. Throws an Error with the compiler's message if the shaders are faulty. */
+  /** Selects the program for what is drawn next. Throws an Error with the compiler's message if the shaders are faulty.
+   * */
   use(): void {
     this.#places ??= placesOf(this.#gl, this.#program);
     this.#graphics.use(this.#program);

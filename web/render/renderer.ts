@@ -28,7 +28,7 @@ export class Renderer {
     return this.graphics.gl;
   }
 
-  /** Sets the size of the picture in pixels of the page, each of which has `pixelRatio` pixels along a side. */
+  /** Sets the size of the picture in pixels of the page. Each has `pixelRatio` pixels along a side. */
   setSize(width: number, height: number, pixelRatio: number): void {
     const [across, down] = [width, height].map((side) => Math.floor(side * pixelRatio));
     // setting the size empties the canvas, also if it is the same
@@ -116,7 +116,7 @@ function visibleMeshes(scene: Object3D): Mesh[] {
   return found;
 }
 
-/** What is opaque, then what is transparent from far to near; in each of both `renderOrder` comes first. */
+/** Opaque meshes, then transparent ones from far to near; within both groups, `renderOrder` comes first. */
 function inOrder(meshes: readonly Mesh[], camera: PerspectiveCamera): Mesh[] {
   const place = new Vector3();
   const depths = new Map(

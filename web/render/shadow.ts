@@ -12,7 +12,7 @@ const [HALF, NEAR, FAR] = [1.3, 0.5, 6];
 const [ORIGIN, UP] = [new Vector3(), new Vector3(0, 1, 0)];
 const NOTHING = "void main() {}";
 
-/** From -1 to 1 to texels' 0 to 1. */
+/** From the range -1 to 1 to texture coordinates from 0 to 1. */
 const TO_TEXELS = new Matrix4().set(0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1);
 
 /** How far the key light gets: depths of what it sees first. */
@@ -34,7 +34,7 @@ export class Shadow {
     };
   }
 
-  /** Takes the picture of the meshes that cast shadows. */
+  /** Draws the depths of the meshes that cast shadows. */
   draw(meshes: readonly Mesh[]): void {
     const { gl } = this.#graphics;
     this.#look();

@@ -64,7 +64,7 @@ export class Texture {
     this.#isChanged = true;
   }
 
-  /** Takes a picture with its size. */
+  /** Sets a picture, with its size. */
   set picture(picture: ImageBitmap) {
     [this.#width, this.#height, this.#data] = [picture.width, picture.height, picture];
     this.changed();

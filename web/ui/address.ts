@@ -44,7 +44,7 @@ export function blendOf(hash: string): { names: string[]; weights: number[] } {
   return { names: taken.map(([name]) => name), weights: taken.map(([, [weight]]) => weight) };
 }
 
-/** What a view begins with that the hash describes. */
+/** The state that a hash describes, for a view to begin with. */
 export function stateOf(hash: string): ViewState {
   return { motions: motionsOf(hash), blend: blendOf(hash) };
 }

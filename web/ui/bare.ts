@@ -2,7 +2,7 @@ import type { Object3D } from "three";
 
 import { Mesh } from "../render/index.ts";
 
-/** Hides what stands among surfaces and is none, such as the dots of handles; the result shows it again. */
+/** Hides objects that are no surfaces, such as the dots of handles; the result shows them again. */
 export function withoutMarks(root: Object3D): () => void {
   const marks: Object3D[] = [];
   root.traverse((part) => {

@@ -13,7 +13,8 @@ import { PoseList } from "./pose_list.ts";
 import { sliderEnds } from "./slider_ends.ts";
 import { WeightRows } from "./weight_rows.ts";
 
-/** The controls of a blend: polygon and sliders of the poses that take part; of many poses a list that they are chosen in. */
+/** The controls of a blend: polygon and sliders of the poses that take part; for many poses, a list to choose them
+ * from. */
 export interface BlendPanel {
   readonly sections: HTMLElement[];
   /** The field for a search; null for few poses. */
@@ -25,7 +26,7 @@ export interface BlendPanel {
   illustrate(pose: number, address: string): void;
 }
 
-/** The least and the greatest weight of one of some poses. */
+/** The smallest and the largest weight of one of some poses. */
 export type EndsOf = (poses: readonly number[], pose: number) => WeightEnds;
 /** Milliseconds. */
 const TURN = 8;
@@ -120,7 +121,8 @@ function choosing(
   };
 }
 
-/** Sets the ends of one slider after the other. What takes longer than a picture goes on in later tasks, until the next call. */
+/** Sets the ends of one slider after the other. What takes longer than a picture continues in later tasks, until the
+ * next call. */
 function inTurns(set: (place: number, limits: WeightEnds) => void) {
   let later = 0;
   return (poses: readonly number[], endsOf: EndsOf) => {

@@ -32,7 +32,7 @@ export class CheckPanel {
     this.elements = [section("Surface", this.#button, this.#result)];
   }
 
-  /** Puts what was invented on the stage, if there is any. */
+  /** Shows the invented faces on the stage, if there are any. */
   show(): void {
     if (this.#invented) this.#stage.root.add(this.#invented);
   }

@@ -30,11 +30,11 @@ export class Choosing {
   readonly mesh: RestMesh;
   readonly surface: Surface;
   tool: Tool = "brush";
-  /** Whether tools take vertices away. */
+  /** Whether tools deselect vertices. */
   removing = false;
-  /** Whether a tool is at work: until its end there is no undo, and nothing is made of what it takes. */
+  /** Whether a tool is in use: until its stroke ends, there is no undo, and no handle is made of what it selects. */
   isBusy = false;
-  /** Whether box and lasso take only what is seen, and not what lies behind or inside. */
+  /** Whether box and lasso select only what is seen, and not what lies behind or inside. */
   seenOnly = false;
   /** The brush's radius as a share of the mesh's diagonal. */
   radius = 0.05;
@@ -66,7 +66,7 @@ export class Choosing {
     return this.#stroke ?? this.#choice.selected;
   }
 
-  /** Takes a choice, as a step that can be undone. */
+  /** Sets the choice, as a step that can be undone. */
   go(choice: Choice): void {
     this.#stroke = null;
     this.#choice = choice;

@@ -4,11 +4,12 @@ import { h, section } from "./dom.ts";
 
 const MOST_POISSON = 0.49; // tets lock beyond
 
-/** What the server offers, and begins with. */
+/** The materials that the server offers, and those to begin with. */
 export type Materials = Pick<Workspace, "materials" | "solid_material" | "shell_material" | "poisson">;
 
-/** The material, and below it the parts of the body that are stiffer or softer. Changes `sampling`. After it has become
- * a shell or a solid, `update` shows which materials it can have, and takes the usual one unless the user chose another. */
+/** The material, and below it the parts of the body that are stiffer or softer. Changes `sampling`. After the body has
+ * become a shell or a solid, `update` shows which materials it can have, and takes the usual one unless the user chose
+ * another. */
 export function materialPanel(sampling: Sampling, given: Materials, parts: HTMLElement) {
   const select = h("select", { "aria-label": "Material" });
   select.append(...given.materials.map(({ kind, title }) => h("option", { value: kind }, capital(title))));

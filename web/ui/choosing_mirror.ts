@@ -7,7 +7,7 @@ import type { Server } from "./server.ts";
 import type { Axis } from "./stage.ts";
 
 const FOUND = "found";
-const EXACT = 5e-5; // of the diagonal
+const EXACT = 5e-5; // share of the diagonal
 type Across = Axis | typeof FOUND;
 
 /** Makes mirror images of handles, and shows the plane: found by the server, or across an axis that the user chooses. */

@@ -15,7 +15,7 @@ export interface Sampling {
   material: string;
   /** Null: the server's own. */
   poisson: number | null;
-  /** Of the shell that the surface is; null: a solid. */
+  /** Thickness of the shell; null: a solid. */
   thickness: number | null;
 }
 

@@ -6,7 +6,7 @@ import type { Choosing } from "./choosing.ts";
 import type { ToolOverlay } from "./choosing_overlay.ts";
 
 const FINE = 3; // pixels between points of a lasso
-const MOST_DABS = 24; // of the brush, from one event of the pointer to the next
+const MOST_DABS = 24; // dabs of the brush between two events of the pointer
 
 interface Stroke {
   pointer: number;

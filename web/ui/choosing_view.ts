@@ -34,7 +34,7 @@ export function choosingView(
   below: readonly HTMLElement[],
   server: Pick<Server, "ask">,
   acts: {
-    /** Takes the present choice. */
+    /** Receives the present choice. */
     choose(choice: Choice): void;
     /** Fills the surface with tets. */
     fill(): void;

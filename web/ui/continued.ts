@@ -1,7 +1,7 @@
 import type { Motion } from "../engine/index.ts";
 import type { Pulled } from "./pulling.ts";
 
-/** What goes on when the model becomes a better one. */
+/** What continues when a better model replaces the present one. */
 export interface Continued {
   /** The present motions of its handles. */
   readonly motions: readonly Motion[];

@@ -6,7 +6,7 @@ export function creaseRings({ points, triangles, creases }: Appearance): {
   ranges: Int32Array<ArrayBuffer>;
   pairs: Int32Array<ArrayBuffer>;
 } {
-  const vertices: number[] = []; // of each side
+  const vertices: number[] = []; // vertices of each side
   const numbers = new Map<string, number>();
   const sides = Int32Array.from(points, (vertex, point) => {
     const key = `${vertex} ${creases?.[point] ?? 0}`;

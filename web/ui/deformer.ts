@@ -12,7 +12,7 @@ export interface Deformer {
   readonly strains: Texture | null;
   /** The shape to blend to, 3 numbers per vertex. */
   goal: Float32Array;
-  /** Takes the shape with these coefficients, or the one at a share of the path from there to the goal. */
+  /** Computes the shape with these coefficients, or the one at a share of the path from there to the goal. */
   update(coefficients: ArrayLike<number>, share?: number): void;
   /** Sets the weights of the shapes at rest, and computes strains from then on; null ends that. */
   weigh(weights: readonly number[] | null): void;

@@ -10,7 +10,7 @@ export interface ShapePath<Shape> {
 export const LEAST_STEP = 1e-4;
 const MOST_STEP = 0.25; // where the shape rests: a frame takes no larger share of the path
 const JUMP = 4; // even steps
-const [SMALL, LARGE] = [0.8, 1.25]; // of an even step: differences that are not visible
+const [SMALL, LARGE] = [0.8, 1.25]; // shares of an even step: differences that are not visible
 const GROWTHS = 3; // per step: a pace that is too slow is corrected over a few frames
 
 interface PathPoint<Shape> {

@@ -10,7 +10,7 @@ type Motions = readonly Motion[];
 /** Motions of the handles that a better model has beyond those of the model before, in any state of that one: the
  * rigid motions that are closest to how their vertices moved. So poses, keys and steps of undo keep their shapes. */
 export class FurtherHandles {
-  /** Of the model before; null if the better one has the same handles. */
+  /** Session of the model before; null if the better one has the same handles. */
   readonly #session: PosingSession | null;
   readonly #pulls: Pulls | null;
   /** Surface vertices of each further handle, and its centre. */

@@ -11,7 +11,7 @@ export const [RING, VIEW_RING] = [0.85, 1.05];
 /** How far behind the middle a ring is drawn, as a share of its radius. */
 export const BEHIND = 0.2;
 
-/** Of the part that the pointer is on. */
+/** Colour of the part that the pointer is on. */
 export const ACTIVE = "#ffd23f";
 const VIEW_COLOR = "#9aa3b0";
 const SQUARE_OPACITY = 0.45;

@@ -5,7 +5,7 @@ import { GpuStrains } from "./gpu_strains.ts";
 import { floatTarget, integers, Pass, runPasses } from "./gpu_pass.ts";
 import { rings } from "./rings.ts";
 
-/** A WebGL 2 texture has at least so many layers. With more modes, several share a layer. */
+/** A WebGL 2 texture has at least this many layers. With more modes, several share a layer. */
 const MOST_LAYERS = 256;
 /** Modes that the shader takes: their coefficients are half of the 224 vectors of uniforms that WebGL 2 promises. */
 export const MOST_MODES = 448;
@@ -75,7 +75,7 @@ export class GpuDeformer implements Deformer {
   readonly #textures: readonly Texture[];
   #strains: GpuStrains | null = null;
 
-  /** Whether this browser can draw into float textures, and takes so many modes and vertices. */
+  /** Whether this browser can draw into float textures and can hold all modes and vertices. */
   static supports(graphics: Graphics, space: ShapeSpace): boolean {
     return (
       graphics.canDrawFloats &&

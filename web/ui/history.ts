@@ -1,4 +1,4 @@
-/** States that can be gone back to. A state that is the same as the present one is no step. */
+/** States to return to. A state that is the same as the present one is no step. */
 export class History<T> {
   #past: T[] = [];
   #future: T[] = [];

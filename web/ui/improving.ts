@@ -23,7 +23,8 @@ export class Improving {
     this.#improver = improver;
   }
 
-  /** Takes the points that are kept now. If none of those that were ordered is left, nothing more needs to be computed. */
+  /** Sets the points that are kept now. If none of those that were ordered is left, nothing more needs to be computed.
+   * */
   keep(points: readonly Message[]): void {
     this.#kept = points;
     const names = points.map(({ name }) => name);
@@ -54,7 +55,7 @@ export class Improving {
     this.onChange();
   }
 
-  /** The view of the points is left; what was ordered goes on. */
+  /** The view of the points is left; what was ordered is still computed. */
   forget(): void {
     [this.#kept, this.#ordered] = [[], []];
     this.onChange();

@@ -3,7 +3,7 @@ import type { Dynamics, FrameReport } from "../engine/index.ts";
 /** Seconds of one step, and the most steps of a picture. */
 const DT = 1 / 60;
 const MOST_STEPS = 4;
-/** A body rests once it moves by less than this many coordinate scales in a second, in so many steps: it is slow for a
+/** A body rests once it is slower than this, in coordinate scales per second, for this many steps: it is slow for a
  * moment at each end of a swing, and never slower than the tolerance of the solves. */
 const RESTING = 0.05;
 const STILL = 12;
@@ -14,7 +14,7 @@ export interface Swinging {
   step(dt: number, dynamics: Dynamics): FrameReport;
   /** The static solve for what is set, where a swing without gravity ends. */
   settle(): FrameReport;
-  /** In coordinate scales per second. */
+  /** The speed in coordinate scales per second. */
   speed(): number;
 }
 
@@ -42,7 +42,7 @@ export class Jiggle {
     if (!on && this.#moves) this.#isFirst = true;
   }
 
-  /** Whether gravity bends the body, of which static solutions know nothing. */
+  /** Whether gravity bends the body, which static solutions ignore. */
   get isHeavy(): boolean {
     return this.#isOn && this.dynamics.gravity.some((g) => g !== 0);
   }

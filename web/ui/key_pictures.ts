@@ -47,13 +47,13 @@ export class KeyPictures<State> {
     }
   }
 
-  /** A state goes on as another one. */
+  /** Another state takes over the picture of a state. */
   become(state: State, other: State): void {
     const picture = this.of(state);
     if (picture) this.#pictures.set(other, picture);
   }
 
-  /** Takes those that are missing soon, in place of what was wanted before. */
+  /** Takes missing pictures of these states soon, instead of those that were wanted before. */
   want(states: readonly State[]): void {
     clearTimeout(this.#timer);
     const [next, ...later] = states.filter((state) => !this.of(state));
@@ -71,7 +71,7 @@ export class KeyPictures<State> {
     clearTimeout(this.#timer);
   }
 
-  /** Takes the picture of another state than the present one, which is there again before the browser shows anything. */
+  /** Takes the picture of another state; the present one is restored before the browser shows anything. */
   #takeAt(state: State): void {
     const { surface } = this.#pictured;
     const [{ coefficients, carriedBy }] = this.#pictured.shapes([state]);

@@ -24,7 +24,7 @@ export class MeshScene {
   #isColored = false;
   #isDisposed = false;
 
-  /** In several tasks: the mesh may be large. */
+  /** Works in several tasks, since the mesh may be large. */
   static async create(stage: Stage, mesh: RestMesh, options: ViewOptions): Promise<MeshScene> {
     const look = OwnLook.of(mesh.appearance, stage.renderer.graphics);
     await nextTask();

@@ -6,7 +6,7 @@ import {
   type PosingSession,
 } from "../engine/index.ts";
 
-/** From rest to motions of all handles, in steps as a drag comes there: one large one may end in another minimum. */
+/** Moves from rest to motions of all handles in steps, as a drag does: one large step may end in another minimum. */
 export function approach(session: PosingSession, motions: readonly Motion[]): FrameReport {
   let report = session.solve();
   for (const share of [0.25, 0.5, 0.75, 1])

@@ -1,4 +1,4 @@
-/** Ends the present task: the browser answers the user before the rest goes on. */
+/** Ends the present task, so that the browser answers the user before the rest continues. */
 export function nextTask(): Promise<void> {
   return new Promise((resolve) => setTimeout(resolve));
 }

@@ -13,7 +13,7 @@ const PRODUCT = 1 << 23;
 const SOME = 64;
 
 /** In the first row the middles of patches, in the second one their areas times their normals. The normals of vertices are
- * twice the areas of their faces, each of which has three corners. */
+ * twice the areas of their faces, and each face has three corners. */
 const PATCHES = `
 uniform sampler2D positions;
 uniform sampler2D normals;

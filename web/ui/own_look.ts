@@ -13,7 +13,7 @@ export class OwnLook {
 
   #isDisposed = false;
 
-  /** Null for a body without. */
+  /** Null for a body without materials of its own. */
   static of(appearance: Appearance | null, { mostTexels }: Graphics): OwnLook | null {
     return appearance && new OwnLook(appearance, mostTexels);
   }

@@ -17,7 +17,7 @@ export class PageJob {
     return this.#now.isRunning;
   }
 
-  /** Takes what the server says. */
+  /** Sets what the server reports. */
   set(request: number, isRunning: boolean): void {
     [this.#now, this.#before] = [{ request, isRunning }, null];
   }
@@ -42,7 +42,7 @@ export class PageJob {
     return true;
   }
 
-  /** A request has ended; a later one goes on. */
+  /** A request has ended; a later one continues. */
   end(request = this.#now.request): void {
     if (request === this.#now.request) this.set(request, false);
   }

@@ -71,7 +71,7 @@ export class Polishing {
   }
 
   /** Asks for the present frame; the answer is dropped if another frame came meanwhile. Shapes that are pulled, or bent by
-   * gravity, stay as they are: the server knows nothing of that. The shape at rest is the full solution. */
+   * gravity, stay as they are: the server does not know about that. The shape at rest is the full solution. */
   async ask(): Promise<void> {
     const { session, surface, stage } = this.#posing;
     if (!this.#isOn || !isStatic(this.#posing) || isAtRest(session)) return;

@@ -52,7 +52,7 @@ export function withPose(choice: PoseChoice, pose: number): PoseChoice {
   return { poses: [...choice.poses, pose], weights: [...choice.weights, 0] };
 }
 
-/** Takes a pose away; the others share its weight in their proportions. The same choice if it is the only one. */
+/** Removes a pose; the others share its weight in their proportions. The same choice if it is the only one. */
 export function withoutPose(choice: PoseChoice, pose: number): PoseChoice {
   const place = choice.poses.indexOf(pose);
   if (place < 0 || choice.poses.length === 1) return choice;

@@ -163,7 +163,7 @@ export class Posing {
     this.#solved(report);
   }
 
-  /** Takes points that are pulled, in place of others. Without any, the shape goes back to that of the handles, or swings. */
+  /** Sets the points that are pulled. Without any, the shape goes back to that of the handles, or swings. */
   pull(pulled: Pulled | null): void {
     const before = this.pulled?.q;
     [this.pulled, this.#isPulledAnew] = [pulled, true];
@@ -270,7 +270,7 @@ export class Posing {
   /** After a solve for other motions than those that were dragged. */
   #jumped(report: FrameReport): void {
     this.#solved(report);
-    if (this.jiggle.isHeavy) this.jiggle.wake(); // solves know nothing of gravity
+    if (this.jiggle.isHeavy) this.jiggle.wake(); // solves ignore gravity
     this.onChange();
     this.onReleased();
   }

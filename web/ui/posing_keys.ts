@@ -4,7 +4,7 @@ import { turnedInView } from "./posing_drag.ts";
 import type { Posing } from "./posing.ts";
 import { isTaken } from "./taken_keys.ts";
 
-const STEP = 0.015; // of the diagonal
+const STEP = 0.015; // share of the diagonal
 const TURN = Math.PI / 36;
 
 /** Keys, while no field has the focus: 1-9 select, arrows move or turn, Ctrl+Z, Ctrl+Shift+Z and Ctrl+Y, T, R, F, W, J,

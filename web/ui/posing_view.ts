@@ -109,7 +109,7 @@ export async function posingView(
   posing.onReleased = () => {
     if (!posing.isOnTheWay && !posing.isDragging) void polishing?.ask();
   };
-  /** Of kept points too: a better model may have them as handles when the page is loaded again. */
+  /** Includes kept points: a better model may have them as handles when the page is loaded again. */
   const motions = () =>
     new Map([
       ...posing.motions.map((motion, handle) => [namesOf(posing)[handle], motion] as const),

@@ -16,7 +16,7 @@ import { rayAt } from "./canvas_ray.ts";
 import type { Posing } from "./posing.ts";
 import type { Motions } from "./view.ts";
 
-const DOT = 0.02; // of the diagonal
+const DOT = 0.02; // share of the diagonal
 const WHITE = new Color("#ffffff");
 
 /** A point that is pulled, with the name that it has as a handle. */
@@ -68,7 +68,7 @@ export class Pulling {
     return this.#kept.map((point) => ({ ...point, reach: reachOf(model, point, carriedBy) }));
   }
 
-  /** Of kept points, as handles that do not turn. */
+  /** Motions of kept points, as handles that do not turn. */
   get motions(): Motions {
     const { model } = this.#posing.session;
     return new Map(
@@ -95,7 +95,7 @@ export class Pulling {
     }
   }
 
-  /** Takes those pulls, before that model is shown; `posing` continues with what this returns. */
+  /** Adopts those pulls, before that model is shown; `posing` continues with what this returns. */
   become(session: PosingSession, pulls: Pulls | null): Pulled | null {
     const held = this.points;
     this.#kept = this.#kept.filter(isFreeIn(session));

@@ -28,7 +28,7 @@ export interface Chosen {
   leave(): void;
   /** Sends the choice to the server. */
   send(): Promise<void>;
-  /** Takes points that have become handles. */
+  /** Adds points that have become handles. */
   add(kept: readonly HandleChoice[]): void;
   /** Does something and shows its error, if there is one. */
   try(act: () => Promise<void> | void): Promise<void>;
@@ -46,7 +46,7 @@ export class ServedModels {
   readonly job = new PageJob();
   /** Makes handles of points that are kept. */
   readonly improving: Improving;
-  /** Where the model was left. */
+  /** The state in which the model was left. */
   state: ViewState = {};
   readonly #shell: AppShell;
   readonly #server: Server;
@@ -88,7 +88,7 @@ export class ServedModels {
     return this.#view !== null;
   }
 
-  /** Takes the server's own model, which the page poses. */
+  /** Adopts the server's own model, which the page poses. */
   adopt(content: PosingModel, view: PosingView): View {
     [this.#model, this.#view, this.#isOwn] = [{ number: 0, content }, view, true];
     this.update();
@@ -116,7 +116,7 @@ export class ServedModels {
     this.update();
   }
 
-  /** Makes room for models of other handles: the present model is back if there is none of them. */
+  /** Prepares for models of other handles: the present model comes back if none of them arrives. */
   #begin(): void {
     this.#before = this.#model ?? this.#before;
     this.#model = null;
@@ -138,7 +138,7 @@ export class ServedModels {
     this.#sent.announce(sent);
   }
 
-  /** Takes a better model, or the first one, which is posed at once. */
+  /** Receives a better model, or the first one, which is posed at once. */
   async take(sent: Model): Promise<void> {
     if (!this.job.takes(sent.request) || sent.number === this.#model?.number) return;
     const content = await this.#sent.read(sent, this.#server, this.#chosen.name);

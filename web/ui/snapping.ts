@@ -9,7 +9,7 @@ const [DEGREES, SHARE] = [5, 1 / 40];
 /** Rounds drags: lengths along the axes to multiples of a step, turns to multiples of five degrees. */
 export class Snapping {
   isOn = false;
-  /** In the mesh's unit: 1, 2 or 5 times a power of ten. */
+  /** The step of lengths in the mesh's unit: 1, 2 or 5 times a power of ten. */
   readonly length: number;
   readonly degrees = DEGREES;
 

@@ -148,7 +148,7 @@ export class Stage {
     this.#fill(shape);
   }
 
-  /** Takes the square of the picture that a shape is in: most shapes are far from filling their sphere. */
+  /** Narrows the view to the square around a shape: most shapes are far from filling their sphere. */
   #fill(shape: Float32Array): void {
     const seen = new Box3();
     const point = new Vector3();
@@ -160,7 +160,7 @@ export class Stage {
     this.camera.setViewOffset(1, 1, (1 + middle.x - half) / 2, (1 - middle.y - half) / 2, half, half);
   }
 
-  /** Back from `lookAt`. */
+  /** Undoes `lookAt`. */
   lookBack(): void {
     this.#ground.visible = true;
     this.camera.clearViewOffset();

@@ -96,7 +96,7 @@ export class Surface {
     this.object.matrixAutoUpdate = false;
   }
 
-  /** Takes the shape with these coefficients; the others are zero. */
+  /** Shows the shape with these coefficients; the others are zero. */
   show(coefficients: ArrayLike<number>): void {
     this.#coefficients = coefficients;
     this.#share = 0;
@@ -177,7 +177,7 @@ export class Surface {
     isOccluded.value = this.#occlusion !== null;
   }
 
-  /** Takes a rigid motion along. */
+  /** Sets the rigid motion that carries the surface. */
   carry({ rotation: R, shift: t }: RigidMap): void {
     const { matrix } = this.object;
     matrix.set(R[0], R[1], R[2], t[0], R[3], R[4], R[5], t[1], R[6], R[7], R[8], t[2], 0, 0, 0, 1);

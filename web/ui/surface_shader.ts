@@ -11,7 +11,7 @@ export type SurfaceUniforms = {
   /** What the ramps end at: a length, and a strain. */
   displacementEnd: Uniform<number>;
   strainEnd: Uniform<number>;
-  /** Of `Occlusion`, where the surface is occluded. */
+  /** The texture of `Occlusion`, where the surface is occluded. */
   shownOcclusion: Uniform<Texture>;
   isOccluded: Uniform<boolean>;
   /** Whether shadows fall on it. */
@@ -23,9 +23,9 @@ export type SurfaceUniforms = {
 };
 
 /** Parts of the shaders: COLORS has colours of vertices, and RAMPS those of displacements and strains. POINTS has points
- * with an attribute `ownVertex`, several of which may be the same vertex of the surface, and CREASED their normals on both
- * sides of edges, from faces around a point: where these start among `ownPairs`, and how many there are. PICTURE has a
- * texture. MOVED is moved before what it lies on, or behind it. */
+ * with an attribute `ownVertex`; several points may have the same vertex of the surface. CREASED has their normals on
+ * both sides of edges, from faces around a point: where these start among `ownPairs`, and how many there are. PICTURE
+ * has a texture. MOVED is moved before what it lies on, or behind it. */
 export type Part = "COLORS" | "RAMPS" | "POINTS" | "CREASED" | "PICTURE" | "MOVED";
 
 /** The model's matrix is a motion and a scale, so that normals turn as places do. `ramp` goes from pale sand by coral to

@@ -10,7 +10,7 @@ export interface SurfaceView extends View {
   take(): MeshScene | null;
 }
 
-/** A surface without tets, as long as it is filled or if it cannot be: to look at. */
+/** A surface without tets, to look at while it is filled or if it cannot be filled. */
 export function surfaceView(stage: Stage, scene: MeshScene, below: readonly HTMLElement[]): SurfaceView {
   const stop = new AbortController();
   scene.sheet = shortcutSheet([], (view) => stage.look(1, VIEWS[view]), stop.signal);

@@ -24,7 +24,7 @@ export function readTimeline<State>(text: string, states: States<State>): Timeli
   return timelineOf(parsed(text), states);
 }
 
-/** The timeline of a model that had other handles: keys go on without those that are not among `handles`. */
+/** The timeline of a model that had other handles: keys drop those that are not among `handles`. */
 export function continuedTimeline<State>(
   text: string,
   states: States<State>,

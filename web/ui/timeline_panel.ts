@@ -21,7 +21,7 @@ export interface Animated<State> extends Pictured<State> {
   show(state: State): void;
   /** After playing or a jump: the state stays, as after a drag. */
   settle(): void;
-  /** For a timeline that is skinned like an onion. */
+  /** Shapes of neighbouring keys, for onion skinning. */
   readonly ghosts: Ghosts;
 }
 
@@ -113,7 +113,8 @@ export class TimelinePanel<State> {
     this.#take(this.#timeline.map(other));
   }
 
-  /** Takes the keys from before another view or a reload, else the timeline that the model came with; the shape stays. */
+  /** Restores the keys from before another view or a reload, else the timeline that the model came with; the shape
+   * stays. */
   begin(before: string | null | undefined, own: unknown): void {
     const { kept, handles = [] } = this.#animated;
     const text = before ?? kept?.keys;
@@ -125,7 +126,7 @@ export class TimelinePanel<State> {
       this.#timeline = timeline; // kept for a reload once it is changed
       this.#time = timeline.end; // the next key comes after the last one
       this.#show();
-      if (lost.length > 0) this.#fault.textContent = `The keys go on without ${lost.join(", ")}.`;
+      if (lost.length > 0) this.#fault.textContent = `Keys no longer move ${lost.join(", ")}.`;
     } catch (error) {
       this.#fault.textContent = (error as Error).message;
     }

@@ -12,7 +12,7 @@ export interface View {
   readonly label: string;
   /** For scripts and tests, as `window.snapspace`. */
   readonly script: Record<string, unknown>;
-  /** Where another view of the same model goes on; missing in views of no model. */
+  /** From where another view of the same model continues; missing in views without a model. */
   readonly state?: ViewState;
   dispose(): void;
 }

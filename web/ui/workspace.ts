@@ -133,7 +133,7 @@ export class Workspace {
     return this.#models.improving;
   }
 
-  /** Takes the server's own model, which can be improved while it is posed. */
+  /** Adopts the server's own model, which can be improved while it is posed. */
   adopt(content: PosingModel, view: PosingView): View {
     return this.#models.adopt(content, view);
   }

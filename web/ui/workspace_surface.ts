@@ -15,7 +15,7 @@ export class WorkspaceSurface {
   /** Until there are tets. */
   #view: SurfaceView | null = null;
   #shown: string | null = null;
-  /** Of the present mesh; null if it came as tets. */
+  /** The check of the present mesh; null if it came as tets. */
   #check: CheckPanel | null = null;
 
   constructor(shell: AppShell, server: Server) {

@@ -25,7 +25,7 @@ export class SnapspaceViewer extends HTMLElement implements SnapspaceViewerEleme
   readonly #message = h("p", { className: "message", role: "alert", hidden: true });
   #stage: Stage | null = null;
   #shown: ShownModel | null = null;
-  /** How the model stands. */
+  /** The shape at rest, and the axis that points up. */
   #base: { shape: Float32Array; up: Axis | undefined } | null = null;
   /** What is loaded now: an earlier load that ends later has no effect. */
   #loading = 0;

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...arguments import as_path
+from ...arguments import as_path, require_type
 from ...disk.atomic_file import atomic_file
 from ...input_error import located
 from ..arrays import FloatArray, IndexArray, as_indices, as_points
@@ -75,6 +75,8 @@ class SurfaceFile:
         return f"SurfaceFile({self.name}, {len(self.data)} bytes)"
 
     def __post_init__(self) -> None:
+        require_type("SurfaceFile", "name", self.name, str, "give the name of a file")
+        require_type("SurfaceFile", "data", self.data, bytes, "give the bytes of the file")
         if self.suffix not in READERS:
             raise ValueError(
                 f"SurfaceFile: unknown extension {self.suffix!r}; known are {', '.join(READERS)}"

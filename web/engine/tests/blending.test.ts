@@ -77,7 +77,7 @@ for (const [name, ending, kind] of [
     assert.ok(session.q.every((x) => x === 0));
   });
 
-/** In whole percent, inside of those of Python; what was sampled, if no test is known. */
+/** Ends are whole percents within those of Python; or those of the sampled range, if no test is known. */
 function areEnds(ends: readonly (readonly [number, number])[], expected: Ends | null): void {
   const known = expected ?? ends.map(() => [0, 1] as const);
   ends.forEach(([least, greatest], pose) => {

@@ -48,7 +48,7 @@ test("a vertex belongs to one handle, and handles that lose some are reported", 
   assert.deepEqual(sets(two), { "handle 1": [1, 2, 3], "handle 2": [7, 8] }, "the step before stays");
 });
 
-test("names are unique, also those that are given", () => {
+test("names are unique, even those that the user gives", () => {
   const [first, second] = two.handles;
   assert.equal(nameFault(two, second.key, "head"), "");
   assert.equal(nameFault(two, second.key, second.name), "");
@@ -58,7 +58,7 @@ test("names are unique, also those that are given", () => {
   assert.equal(withNewHandle(select(named, 20)).handles[2].name, "handle 4");
 });
 
-test("what is lacking", () => {
+test("what must still be chosen is named", () => {
   const [first, second] = two.handles;
   assert.match(lacking(choiceOf([])), /stays in place/);
   assert.match(lacking(withoutHandle(two, second.key)), /part to move/);

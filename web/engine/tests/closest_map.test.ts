@@ -34,7 +34,7 @@ test("points that are stretched evenly keep their rotation", () => {
   close(found.rotation, rotation);
 });
 
-test("one point only moves, and no point is at rest", () => {
+test("a single point is only translated, and no points give the identity", () => {
   const found = closestMap([[1, 2, 3]], [[2, 2, 5]]);
   close(found.rotation, [1, 0, 0, 0, 1, 0, 0, 0, 1]);
   close(found.shift, [1, 0, 2]);

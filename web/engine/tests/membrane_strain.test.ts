@@ -34,12 +34,12 @@ test("the strain of a stretch is that along the sides", () => {
   }
 });
 
-test("on a bent body it is the strain of the tets below, along the surface", () => {
+test("the strain of a bent body is that of the tets below, along the surface", () => {
   const found = triangleStrains(restsOf(bent), [1], bent.shape, Uint32Array.from(bent.faces));
   assert.ok(distance(found, bent.strains) < 1e-5 * Math.max(...bent.strains));
 });
 
-test("rigid motions and the rest shape have none, and a mix of rests is the mean square", () => {
+test("rigid motions have no strain, and that of several rest shapes is the mean square", () => {
   const rests = restsOf(bent);
   const faces = Uint32Array.from(bent.faces);
   const [c, s] = [Math.cos(0.7), Math.sin(0.7)];

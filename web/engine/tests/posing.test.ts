@@ -77,7 +77,26 @@ for (const file of files)
     assert.ok(distance(surface(session), model.space.base) === 0);
   });
 
-test("a motion beyond all numbers is taken back", async () => {
+for (const file of ["posing.packed", "cubature.packed", "clustered.packed"])
+  test(`a jump back from far away ends where one from rest does: ${file}`, async () => {
+    const model = readModel(bytes(file), "") as PosingModel;
+    const [far, near] = [await PosingSession.create(core, model), await PosingSession.create(core, model)];
+    for (const axis of [0, 1, 2]) {
+      const away = [0, 0, 0].map((_, i) => (i === axis ? 2 * diagonal : 0)) as unknown as Vector;
+      const back = away.map((x) => 0.02 * x) as unknown as Vector;
+      far.move(1, [0, 0, 0], away);
+      near.reset();
+      assert.equal(far.move(1, [0, 0, 0], back).status, "converged");
+      const expected = near.move(1, [0, 0, 0], back);
+      assert.equal(expected.status, "converged");
+      assert.ok(distance(far.q, near.q) < 1e-4 * model.coordinateScale, `axis ${axis}`);
+      far.move(1, [0, 0, 0], away);
+      assert.equal(far.move(1, [0, 0, 0], [0, 0, 0]).status, "converged");
+      assert.ok(distance(far.q, new Float64Array(far.dimension)) < 1e-9 * model.coordinateScale);
+    }
+  });
+
+test("a motion whose energy overflows is undone", async () => {
   const session = await PosingSession.create(core, readModel(bytes("posing.packed"), "") as PosingModel);
   session.move(1, [0, 0, 0.2], [0.1, 0, 0]);
   const [q, motion] = [session.q, session.motion(1)];

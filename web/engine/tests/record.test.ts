@@ -17,12 +17,12 @@ for (const file of ["own_surface.snapspace", "own_surface.packed"])
     assert.equal(model.up, "x");
   });
 
-test("a record without an axis, or with anything else there", () => {
+test("a record without an axis, or with anything else in its place, gives none", () => {
   assert.equal((readModel(bytes("posing.snapspace"), "bar") as PosingModel).up, undefined);
   for (const up of [undefined, null, "w", 1, ["x"], {}]) assert.deepEqual(upOf({ up }, "scan.stl"), {});
 });
 
-test("without an axis in the record, the one that is usual for the surface's file", () => {
+test("without an axis in the record, the usual one for the surface's file is up", () => {
   for (const file of ["a.obj", "a.GLB", "b.gltf"]) {
     assert.deepEqual(upOf({}, file), { up: "y" });
     assert.deepEqual(upOf({ up: "z" }, file), { up: "z" });

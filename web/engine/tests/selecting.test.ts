@@ -46,7 +46,7 @@ function potato(rows: number, columns: number): { shape: Float32Array; faces: Ui
 
 const { shape, faces } = potato(20, 31);
 
-test("the tree finds what a look at all triangles finds", () => {
+test("the tree finds what a search of all triangles finds", () => {
   const tree = new TriangleTree(shape, faces);
   const next = random(3);
   const vector = (size: number): Vector => [
@@ -72,7 +72,7 @@ test("the tree finds what a look at all triangles finds", () => {
   assert.ok(hits > 300);
 });
 
-test("triangles that all lie at one place, and none at all", () => {
+test("a tree may have all triangles at one place, or none at all", () => {
   const heap = new Uint32Array(60).map((_, i) => i % 3);
   const corner = Float32Array.from([0, 0, 0, 1, 0, 0, 0, 1, 0]);
   assert.equal(new TriangleTree(corner, heap).hit([0.2, 0.2, 1], [0, 0, -1])?.along, 1);
@@ -112,7 +112,7 @@ test("a lasso is its polygon, whichever way round and however often", () => {
   assert.equal(box.size, 30);
   assert.deepEqual(isIn(square), box);
   assert.deepEqual(isIn([...square].reverse()), box);
-  assert.deepEqual(isIn([...square, ...square]), box, "a hand goes on after it has closed the line");
+  assert.deepEqual(isIn([...square, ...square]), box, "a hand continues after it has closed the line");
   assert.equal(isIn(square.slice(0, 2)).size, 0);
   const circle = Array.from({ length: 200 }, (_, i): ScreenPoint => {
     const angle = (2 * Math.PI * i) / 200;
@@ -140,7 +140,7 @@ test("what is seen from an eye is the near side", () => {
   assert.equal(seenFrom([0, 0, 6], tree, withInside, faces, inside).length, 0);
 });
 
-test("sets of vertices", () => {
+test("unions and differences of sets of vertices are ascending", () => {
   const next = random(11);
   for (let i = 0; i < 50; i++) {
     const set = () =>

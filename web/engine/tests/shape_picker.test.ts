@@ -42,7 +42,7 @@ function first(shape: Float32Array, faces: Uint32Array, o: Vector, d: Vector): n
   return least;
 }
 
-test("what a ray hits is what it hits among all triangles, in every shape", () => {
+test("a ray hits what a search of all triangles finds, in every shape", () => {
   const { space, faces } = ball(40, 5);
   const picker = new ShapePicker(space, faces);
   const shape = new Float32Array(space.base.length);

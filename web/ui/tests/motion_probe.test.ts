@@ -22,7 +22,7 @@ function spaceOf(vertices: number, ...modes: ((vertex: number, axis: number) => 
   return quantised(new Float64Array(3 * vertices), Float64Array.from(rows));
 }
 
-test("of a small surface all vertices count", () => {
+test("on a small surface, all vertices count", () => {
   const space = spaceOf(
     90,
     (vertex, axis) => Math.sin(vertex + axis),
@@ -36,7 +36,7 @@ test("of a small surface all vertices count", () => {
   assert.ok(Math.abs(new MotionProbe(space).between(from, to) - wanted) < 1e-4 * wanted);
 });
 
-test("of a large one the tip that alone moves is not missed, nor are smooth motions", () => {
+test("on a large surface, a tip that moves alone is not missed, nor are smooth motions", () => {
   const count = 20_011;
   const tip = 12_345;
   const space = spaceOf(

@@ -22,7 +22,7 @@ async function timesPolished(q: number[]): Promise<number> {
   return times;
 }
 
-test("what a solve leaves of a far motion is rest", async () => {
+test("what a solve leaves of a far motion counts as rest", async () => {
   assert.equal(await timesPolished([2e-6, 0]), 0, "it would say that the polish moved all of it");
   assert.equal(await timesPolished([1e-3, 0]), 1, "a small displacement is polished");
 });

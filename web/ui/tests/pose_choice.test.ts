@@ -17,7 +17,7 @@ const shape = (choice: PoseChoice) => allWeights(choice, COUNT);
 const close = (a: readonly number[], b: readonly number[]) =>
   a.forEach((value, i) => assert.ok(Math.abs(value - b[i]) < 1e-12, `${a}, not ${b}`));
 
-test("few poses all take part, of many only some", () => {
+test("few poses all take part, but only some of many", () => {
   assert.deepEqual(firstChoice(MOST_CHOSEN).poses, [0, 1, 2, 3, 4, 5, 6, 7]);
   const { poses } = firstChoice(MOST_CHOSEN + 1);
   assert.ok(poses.length >= 2 && poses.length <= 3);
@@ -58,7 +58,7 @@ test("weights sum to one, and poses that were not chosen keep zero, whatever is 
   }
 });
 
-test("the last pose stays, and the one too many stays out", () => {
+test("the last pose stays, and one pose too many stays out", () => {
   const last: PoseChoice = { poses: [3], weights: [1] };
   assert.equal(withoutPose(last, 3), last);
   assert.deepEqual(reweighted(last, 0, 0).weights, [1]);

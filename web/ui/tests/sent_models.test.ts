@@ -46,7 +46,7 @@ test("a model that is gone is no fault if a newer one was announced meanwhile", 
   assert.equal(await models.read(first, server, "bar"), null);
 });
 
-test("the newest one must be there", async () => {
+test("the newest model must be there", async () => {
   const [models, first] = [new SentModels(), announced(1)];
   models.announce(first);
   await assert.rejects(models.read(first, { fetched: () => Promise.reject(gone) }, "bar"), gone);

@@ -3,7 +3,7 @@ import { test } from "node:test";
 
 import { carriedOver, ShapeTransition } from "../shape_transition.ts";
 
-test("it begins where the shape was and ends where it goes, in small steps", () => {
+test("a transition begins where the shape was and ends where it goes, in small steps", () => {
   const [from, to] = [
     [1, 0, -2],
     [3, 4, 0],
