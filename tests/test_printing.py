@@ -71,7 +71,7 @@ def test_a_search_prints_its_step_and_model(
     met = replace(found, target=0.005)
     assert repr(met) == f"AccurateModel({step}, {model})"
     growth = Growth(posing_model, snapshots, held_out, None, 1.2345, final=False)
-    assert repr(growth) == f"Growth(first impression, 1.23 s, {model})"
+    assert repr(growth) == f"Growth(preliminary, 1.23 s, {model})"
     assert repr(replace(growth, step=step, final=True)) == f"Growth({step}, 1.23 s, final, {model})"
 
 

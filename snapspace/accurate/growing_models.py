@@ -41,7 +41,7 @@ class Growth:
     final: bool
 
     def __repr__(self) -> str:
-        what = self.step or "first impression"
+        what = self.step or "preliminary"
         last = ", final" if self.final else ""
         return f"Growth({what}, {self.seconds:.3g} s{last}, {self.model!r})"
 
