@@ -102,7 +102,7 @@ def test_models_arrive_and_improve(server: Running, page: Page) -> None:
     page.send("export", request=7, model=9)
     assert "no longer kept" in page.take("exported", "failed")["message"]
     page.send("export", request=8, model=2, timeline="{")
-    assert "no JSON" in page.take("exported", "failed")["message"]
+    assert "not JSON" in page.take("exported", "failed")["message"]
     status, text = server.get(f"/model/{models[0]['address'].split('/')[1]}/9")
     assert status == 404 and b"no longer kept" in text
 
