@@ -11,40 +11,42 @@ from numpy.typing import NDArray
 lane_count: int
 
 class VertexStars:
-    """The stars of a surface, elements of its ARAP energy."""
+    """The stars of a surface: the elements of its ARAP energy."""
 
     def corners(self) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
         """
-        First corners (s + 1,), vertices (c,) and gradients (c, 3): the gradient of a star is the sum of u (x) gradient over its corners.
+        First corners (s + 1,), vertices (c,) and gradients (c, 3). The displacement gradient of a star is the sum of u (x) gradient over its corners.
         """
 
     def triangles(self) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
         """
-        First triangles (s + 1,), triangles (t,) and shares (t,): a triangle's weight in a star is the share of a third of its area times its modulus.
+        First triangles (s + 1,), triangles (t,) and shares (t,). A triangle's weight in a star is its share times a third of its area times its modulus.
         """
 
     def numbers(self) -> NDArray[numpy.float64]:
-        """Rows of the density "shell-arap" (s, 12), of modulus one."""
+        """Rows of the density "shell-arap" (s, 12), with modulus one."""
 
     def areas(self) -> NDArray[numpy.float64]:
         """Sums of the hats times a third of the area around each vertex, (s,)."""
 
     def weights(self) -> NDArray[numpy.float64]:
-        """The same of areas times moduli, (s,)."""
+        """The same sums with areas times moduli, (s,)."""
 
     def couplings(self) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
         """
-        First neighbours (n + 1,), vertices (e,) and couplings (e,): the Dirichlet energy is the sum of coupling * u_i . (u_j - u_i) over all vertices and their neighbours.
+        First neighbours (n + 1,), vertices (e,) and couplings (e,). The Dirichlet energy is the sum of coupling * u_i . (u_j - u_i) over all vertices and their neighbours.
         """
 
 class StarHats:
-    """Weights of the vertices in the stars of a surface, which sum to one."""
+    """
+    Weights of the vertices in the stars of a surface. They sum to one at every vertex.
+    """
 
     def __len__(self) -> int: ...
 
     def rows(self) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
         """
-        First places (s + 1,), vertices (w,), first the center, and weights (w,).
+        Starts of the rows (s + 1,), vertices (w,) and weights (w,). The first vertex of a row is the center of the star.
         """
 
     def __getstate__(self) -> tuple[list[int], list[int], list[float]]: ...
@@ -53,11 +55,13 @@ class StarHats:
 
 def star_hats(shapes: NDArray[numpy.float64], triangles: NDArray[numpy.int32], radius: float) -> StarHats:
     """
-    Stars whose centers are at least a radius apart along edges, and less than that from every vertex.
+    Stars of a surface. Their centers are at least a radius apart along edges, and every vertex is less than a radius from a center.
     """
 
 class Material:
-    """A density, given by its name, with moduli (1, k) or one row per tet."""
+    """
+    An energy density, given by its name, and its moduli: one row (1, k), or one row per tet.
+    """
 
     def __init__(self, kind: str, moduli: NDArray[numpy.float64], hats: StarHats | None = None) -> None: ...
 
@@ -69,16 +73,16 @@ class Material:
 
 def material_moduli() -> dict[str, list[str]]:
     """
-    Names of the moduli of every density of solids, in the order of its rows.
+    Names of the moduli of every density of solids, in the order of the entries of a row.
     """
 
 def shell_moduli(poses: NDArray[numpy.float64], elements: NDArray[numpy.int32], kind: str, moduli: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
     """
-    Rows of a shell's density (k, m, 15) with each of several poses (k, n, 3) as the rest shape: mu, lam and bending (m, 3) of the triangles and hinges, and the numbers of their rest shapes.
+    Rows of a shell's density (k, m, 15) with each of several poses (k, n, 3) as the rest shape. A row has the element's mu, lam and bending from `moduli` (m, 3), and then the numbers that describe its rest shape.
     """
 
 class Projection(enum.Enum):
-    """The matrix that Newton's method uses for the Hessian of a tet."""
+    """How Newton's method projects the Hessian of a tet."""
 
     none = 0
 
@@ -104,17 +108,19 @@ class ElasticEnergy:
         """
 
     def some_tet_stresses(self, u: NDArray[numpy.float64], which: NDArray[numpy.int32]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
-        """`tet_stresses` of some elements (c,): (c, 9) and (c,)."""
+        """
+        `tet_stresses` for some elements (c,): stresses (c, 9) and energies (c,).
+        """
 
     def stars(self) -> VertexStars:
-        """The stars of the vertices of a surface that is as rigid as possible."""
+        """The stars of an as-rigid-as-possible surface."""
 
     def hessian_product(self, u: NDArray[numpy.float64], v: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """Hessian at u times v (3n,), without forming the Hessian."""
 
     def hessian_blocks(self, u: NDArray[numpy.float64], *, projection: Projection = Projection.none, threshold: float = 0.0) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
         """
-        Hessian at u, projected tet by tet, as block rows: (row_start (n+1,), columns (b,), blocks (b,3,3)). The threshold is for Projection.stretches.
+        Hessian at u, projected tet by tet, as block rows: (row_start (n+1,), columns (b,), blocks (b,3,3)). Only Projection.stretches uses the threshold.
         """
 
     def lane_values_and_gradients(self, shapes: NDArray[numpy.float64], *, single: bool = False) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
@@ -124,7 +130,7 @@ class ElasticEnergy:
 
     def scalar_diagonal(self) -> NDArray[numpy.float64]:
         """
-        Diagonal (n,) of the scalar matrix that stands for the Hessian of x, y and z.
+        Diagonal (n,) of the scalar matrix that replaces the Hessian for each of x, y and z.
         """
 
     def inverted_tets(self, u: NDArray[numpy.float64]) -> int:
@@ -132,22 +138,24 @@ class ElasticEnergy:
 
 def minimum_degree(starts: NDArray[numpy.int32], rows: NDArray[numpy.int32]) -> NDArray[numpy.int32]:
     """
-    Order of elimination (n,) of a symmetric pattern, given by its columns.
+    Elimination order (n,) by minimum degree for a symmetric pattern, given by its columns.
     """
 
 def nested_dissection(starts: NDArray[numpy.int32], rows: NDArray[numpy.int32]) -> NDArray[numpy.int32]:
-    """The same, by nested dissection."""
+    """
+    Elimination order (n,) by nested dissection for a symmetric pattern, given by its columns.
+    """
 
 class ScalarFactor:
     """
-    Cholesky factor of a sparse matrix (n, n), given by its columns with both triangles. It solves for x, y and z.
+    Cholesky factor of a sparse symmetric matrix (n, n), given by its columns with both triangles. Solves are for x, y and z at once.
     """
 
     def __init__(self, starts: NDArray[numpy.int32], rows: NDArray[numpy.int32], values: NDArray[numpy.float64]) -> None: ...
 
     @staticmethod
     def in_order(starts: NDArray[numpy.int32], rows: NDArray[numpy.int32], values: NDArray[numpy.float64], order: NDArray[numpy.int32]) -> ScalarFactor:
-        """The factor for an order of elimination (n,)."""
+        """The factor for a given elimination order (n,)."""
 
     @property
     def nonzeros(self) -> int: ...
@@ -160,11 +168,11 @@ class ScalarFactor:
 
     def solve_single_lanes(self, right_hand_sides: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """
-        The same in single precision, for up to twice as many right-hand sides.
+        `solve_lanes` in single precision, for up to twice as many right-hand sides.
         """
 
 class InverseKind(enum.Enum):
-    """What is used as the inverse of a scalar matrix."""
+    """How the inverse of a scalar matrix is applied."""
 
     automatic = 0
 
@@ -174,7 +182,7 @@ class InverseKind(enum.Enum):
 
 class TwoGridCycle:
     """
-    Multigrid cycle that replaces the inverse of a sparse matrix (n, n), given by its columns with both triangles; for x, y and z.
+    Two-grid cycle that approximates the inverse of a sparse symmetric matrix (n, n), given by its columns with both triangles. It is applied to x, y and z at once.
     """
 
     def __init__(self, starts: NDArray[numpy.int32], rows: NDArray[numpy.int32], values: NDArray[numpy.float64]) -> None: ...
@@ -184,7 +192,7 @@ class TwoGridCycle:
 
     def lowest_eigenvalue(self, starts: NDArray[numpy.int32], rows: NDArray[numpy.int32], values: NDArray[numpy.float64]) -> float:
         """
-        Estimate from above of the lowest eigenvalue of cycle * matrix, for the matrix of the cycle.
+        Estimate from above of the lowest eigenvalue of cycle * matrix. The matrix must be the one that the cycle was made from.
         """
 
     def apply(self, right_hand_side: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
@@ -195,12 +203,12 @@ class TwoGridCycle:
 
     def apply_single_lanes(self, right_hand_sides: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """
-        The same in single precision, for up to twice as many right-hand sides.
+        `apply_lanes` in single precision, for up to twice as many right-hand sides.
         """
 
 class MassProducts:
     """
-    Inner products of displacements (3n,) with respect to a scalar matrix (n, n), given row by row. Not for several threads at a time.
+    Inner products of displacements (3n,) with respect to a scalar matrix (n, n), given row by row. Only one thread may use it at a time.
     """
 
     def __init__(self, starts: NDArray[numpy.int32], columns: NDArray[numpy.int32], values: NDArray[numpy.float64]) -> None: ...
@@ -252,7 +260,7 @@ class SolveReport:
 
     @property
     def seconds(self) -> float:
-        """Wall time from taking this sample to finishing it."""
+        """Wall time from the start to the end of the solve."""
 
     @property
     def inverted_tets(self) -> int: ...
@@ -289,7 +297,7 @@ class SampleQueue:
     def __init__(self) -> None: ...
 
     def close(self) -> None:
-        """No more samples will come."""
+        """Declares that no more samples will come."""
 
     def running(self) -> list[tuple[int, int]]:
         """Samples that are being solved, with their evaluations so far."""
@@ -314,11 +322,11 @@ class Batch:
         """Conjugate gradient iterations of all samples together (Newton only)."""
 
 class SampleSystem:
-    """The data that all samples of a problem share, with its scalar factor."""
+    """Data that all samples of a problem share, with the scalar factor."""
 
     @property
     def inverse(self) -> InverseKind:
-        """What is used as the inverse of the scalar matrix."""
+        """How the inverse of the scalar matrix is applied."""
 
     @property
     def inverse_products(self) -> int: ...
@@ -348,12 +356,12 @@ class SampleSystem:
 
     def evaluate(self, shapes: NDArray[numpy.float64], inputs: NDArray[numpy.float64], *, threads: int = 0) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
         """
-        Objectives (k,) at displacements (k, 3n) for inputs (k, input_size), and their gradients (k, 3n). Several are computed in one pack.
+        Objectives (k,) at displacements (k, 3n) for inputs (k, input_size), and their gradients (k, 3n). A pack computes several of them.
         """
 
     def evaluate_in_pack(self, shapes: NDArray[numpy.float64], inputs: NDArray[numpy.float64], *, width: int, single: bool) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64], NDArray[numpy.float64], NDArray[numpy.float64]]:
         """
-        Objectives (k,) and gradients (k, 3n) as `evaluate`, in one pack of a width; the gradients times the seed of the inverse Hessian, and the products of both.
+        As `evaluate`, in one pack of this width: objectives (k,), gradients (k, 3n), products (k,) of gradients and images, and images (k, 3n): the inverse Hessian's seed times gradients.
         """
 
     def put(self, queue: SampleQueue, id: int, input: NDArray[numpy.float64], start: NDArray[numpy.float64], *, coarse: CoarseSpace | None = None) -> None:
@@ -369,7 +377,7 @@ class SampleSystem:
 
     def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0, modes: SoftModes | None = None, coarse: CoarseSpace | None = None) -> Batch:
         """
-        Solves by L-BFGS; inputs (samples, input_size), starts (samples, 3n). With a coarse space inputs are (samples, input_size + d * d): after the system's come the inverse Hessians (d, d) of the samples on that space.
+        Solves by L-BFGS; inputs (samples, input_size), starts (samples, 3n). With a coarse space, inputs are (samples, input_size + d * d): an input ends with the inverse Hessian (d, d) of its sample on that space.
         """
 
     def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, projection: Projection, threshold: float, control: SolveControl) -> Batch:
@@ -379,36 +387,36 @@ class SampleSystem:
 
 class PosingSystem(SampleSystem):
     """
-    The data that all samples of a posing problem share, with its scalar factor. Inputs are target displacements of the pinned vertices.
+    Data that all samples of a posing problem share, with the scalar factor. Inputs are the target displacements of the pinned vertices.
     """
 
     def __init__(self, vertices: NDArray[numpy.float64], tets: NDArray[numpy.int32], material: Material, pinned: NDArray[numpy.int32], weights: NDArray[numpy.float64], *, inverse: InverseKind = InverseKind.automatic) -> None: ...
 
 class InterpolationSystem(SampleSystem):
     """
-    The data that all samples of an interpolation problem share, with its scalar factor. Inputs are the weights; displacements are from pose 0.
+    Data that all samples of an interpolation problem share, with the scalar factor. Inputs are the weights of the poses, and displacements are from pose 0.
     """
 
     def __init__(self, poses: NDArray[numpy.float64], tets: NDArray[numpy.int32], material: Material) -> None: ...
 
     def adapted(self, shapes: NDArray[numpy.float64], weights: NDArray[numpy.float64]) -> InterpolationSystem:
         """
-        The same problem with an inverse for solutions near displacements (k, 3n) for weights (k, poses).
+        The same system with an inverse that is adapted to solutions: those near displacements (k, 3n) for weights (k, poses).
         """
 
     def some_tet_stresses(self, u: NDArray[numpy.float64], weights: NDArray[numpy.float64], which: NDArray[numpy.int32]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
         """
-        First Piola-Kirchhoff stress against pose 0 times its volume (c, 9) and energy (c,) of some different tets (c,).
+        First Piola-Kirchhoff stress relative to pose 0, times the volume there, (c, 9), and energy (c,) of some tets (c,), each of which occurs once.
         """
 
     def tet_hessians(self, u: NDArray[numpy.float64], weights: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """
-        Hessian (m, 9, 9) of each tet's energy by its displacement gradient against pose 0.
+        Hessian (m, 9, 9) of each tet's energy with respect to its displacement gradient relative to pose 0.
         """
 
 class SoftModes:
     """
-    Deformations that the scalar factor of a posing system mistakes for stiff, for the seed of L-BFGS: the lowest modes of its Hessian at rest against the scalar matrix.
+    Soft modes of a posing system for the seed of L-BFGS: the lowest generalised eigenvectors of its Hessian at rest with respect to the scalar matrix. The scalar factor mistakes these deformations for stiff ones.
     """
 
     def __init__(self, system: PosingSystem) -> None: ...
@@ -424,14 +432,14 @@ class SoftModes:
 
 class LinearResponse:
     """
-    Displacements of a posing system, linearised at rest, for small displacements (count, input_size) of its handles.
+    Linear responses of a posing system at rest: its displacements for small displacements (count, input_size) of the handles.
     """
 
     def __init__(self, system: PosingSystem, inputs: NDArray[numpy.float64]) -> None: ...
 
     def warped(self, system: PosingSystem, coordinates: NDArray[numpy.float64], inputs: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """
-        Displacements (samples, 3n) near the solutions for inputs (samples, input_size). The combinations of responses with coordinates (samples, count) are their linear parts.
+        Displacements (samples, 3n) near the solutions for inputs (samples, input_size). Their linear parts are combinations of the responses with coefficients `coordinates` (samples, count).
         """
 
 class CoarseSpace:
@@ -441,7 +449,7 @@ class CoarseSpace:
 
 def polish(system: SampleSystem, coarse: CoarseSpace | None, inverse: NDArray[numpy.float64], input: NDArray[numpy.float64], start: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl) -> Solution:
     """
-    L-BFGS on one sample from start (3n,), with a two-level seed; inverse (d, d) is that of the Hessian on the coarse space, or (0, 0) without one, as for surfaces with patches. If it is cancelled, it returns the lowest shape so far.
+    Runs L-BFGS on one sample from start (3n,), with a two-level seed. `inverse` (d, d) is the inverse of the Hessian on the coarse space; without a coarse space, as for surfaces with patches, it is (0, 0). If the solve is cancelled, the shape with the lowest objective so far is returned.
     """
 
 class FitStatus(enum.Enum):
@@ -482,29 +490,31 @@ class FitReport:
 
     @property
     def deviation(self) -> float:
-        """Root mean square distance of surface and target, weighted by area."""
+        """
+        Root mean square distance between surface and target, weighted by area.
+        """
 
     @property
     def seconds(self) -> float: ...
 
 class FittingSystem:
-    """The data that all poses of a mesh and surface share."""
+    """Data that the fits of all poses of a mesh and its surface share."""
 
     def __init__(self, vertices: NDArray[numpy.float64], tets: NDArray[numpy.int32], corners: NDArray[numpy.int32], weights: NDArray[numpy.float64], areas: NDArray[numpy.float64]) -> None: ...
 
     def energy(self, u: NDArray[numpy.float64], *, stretch: float) -> tuple[float, NDArray[numpy.float64]]:
         """
-        Symmetric Dirichlet energy at displacements u (3n,), infinite if a tet is inverted or reaches the stretch, and its gradient (3n,).
+        Symmetric Dirichlet energy at displacements u (3n,), and its gradient (3n,). The energy is infinite if a tet is inverted or reaches the largest stretch.
         """
 
     def projected_hessian_product(self, u: NDArray[numpy.float64], v: NDArray[numpy.float64], *, stretch: float) -> NDArray[numpy.float64]:
         """
-        Hessian of the energy at u, projected tet by tet to a semi-definite one, times v (3n,).
+        Product of v (3n,) and the Hessian of the energy at u, whose tets are projected to positive semi-definite matrices.
         """
 
     def fit(self, targets: NDArray[numpy.float64], *, deviation: float, first_stiffness: float, stretch: float, max_iterations: int, control: SolveControl) -> tuple[NDArray[numpy.float64], FitReport]:
         """
-        Displacements (3n,) that bring the surface to displacements (s, 3), and a report.
+        Displacements (3n,) that move the surface points by the target displacements (s, 3), and a report.
         """
 
 def mode_gradients(vertices: NDArray[numpy.float64], modes: NDArray[numpy.float64], tets: NDArray[numpy.int32], *, shell: bool = False, threads: int) -> NDArray[numpy.float32]:
@@ -514,12 +524,12 @@ def mode_gradients(vertices: NDArray[numpy.float64], modes: NDArray[numpy.float6
 
 def training_columns(rows: NDArray[numpy.float32], stresses: NDArray[numpy.float32], along: NDArray[numpy.float32], columns: NDArray[numpy.float32], *, threads: int) -> None:
     """
-    Writes the products of all tets' forces with directions (s, d, k) to the first s k entries of each row of columns.
+    Writes the products of all tets' forces and the directions `along` (s, d, k) to the first s * k entries of each row of columns.
     """
 
 def quartic_coefficients(energy: ElasticEnergy, modes: NDArray[numpy.float64], *, threads: int) -> NDArray[numpy.float64]:
     """
-    Packed symmetric coefficients (C(d+4, 4),) of the reduced elastic energy; modes (d+1, 3n): offset, then basis.
+    Packed symmetric coefficients (C(d+4, 4),) of the reduced elastic energy. Modes (d+1, 3n) are the offset, then the basis.
     """
 
 class Method(enum.Enum):
@@ -570,11 +580,11 @@ class ShapeRows:
 
     @property
     def bytes(self) -> int:
-        """Bytes that are read for a shape of all modes."""
+        """Bytes that are read to compute a shape from all modes."""
 
     def shape(self, q: NDArray[numpy.float64], *, threads: int = 0) -> NDArray[numpy.float32]:
         """
-        tau + U q (3n,) of the first coordinates in single precision, on this many threads (0: as many as are worthwhile).
+        tau + U q (3n,) in single precision, where q has the first coordinates, on this many threads (0: as many as are worthwhile).
         """
 
 class ReducedFunction:
@@ -594,7 +604,7 @@ class Quartic(ReducedFunction):
     def __init__(self, dimension: int, coefficients: NDArray[numpy.float64], *, single: bool = False) -> None: ...
 
 class LiveLoop:
-    """Solves frame by frame, each from the last one."""
+    """Solves frame by frame; every solve starts from the last frame."""
 
     @property
     def q(self) -> NDArray[numpy.float64]: ...
@@ -621,14 +631,16 @@ class LiveLoop:
         """The smallest curvature at q = 0, for handles at rest or equal weights."""
 
 class PosingLoop(LiveLoop):
-    """The live loop of posing: set offsets, solve from the last frame."""
+    """The live loop of posing: set offsets, then solve from the last frame."""
 
     def __init__(self, coefficients: NDArray[numpy.float64], K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64], *, single: bool = False) -> None: ...
 
     def set_offsets(self, offsets: NDArray[numpy.float64]) -> None: ...
 
 class BlendingLoop(LiveLoop):
-    """The live loop of blending: set weights, solve from the last frame."""
+    """
+    The live loop of blending: set weights, then solve from the last frame.
+    """
 
     def __init__(self, dimension: int, coefficients: NDArray[numpy.float64], *, single: bool = False) -> None: ...
 
@@ -636,7 +648,7 @@ class BlendingLoop(LiveLoop):
 
 class TetRows:
     """
-    Displacement gradients of tets, linear in all coordinates or in those of clusters.
+    Displacement gradients of tets as linear functions of all coordinates, or of the local coordinates of clusters.
     """
 
     @overload
@@ -646,18 +658,18 @@ class TetRows:
     def __init__(self, sizes: NDArray[numpy.int32], rows: NDArray[numpy.float32], modes: NDArray[numpy.float32]) -> None: ...
 
 class TetFunction(ReducedFunction):
-    """A weighted sum over few tets."""
+    """A weighted sum over a few tets."""
 
     def curvatures(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float32]:
         """
-        Weighted Hessians (r, 9, 9) of the tets by their displacement gradients, float32.
+        Weighted Hessians (r, 9, 9) of the tets' energies with respect to their displacement gradients, float32.
         """
 
     def stresses(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float32]:
         """Weighted stresses (r, 9) of the tets, float32."""
 
 class Cubature(TetFunction):
-    """Elastic energy as a weighted sum over few tets."""
+    """Elastic energy as a weighted sum over a few tets."""
 
     def __init__(self, rows: TetRows, weights: NDArray[numpy.float64], material: Material) -> None: ...
 
@@ -672,13 +684,13 @@ class BlendedFunction(TetFunction):
     def set_weights(self, weights: NDArray[numpy.float64]) -> None: ...
 
 class BlendedCubature(BlendedFunction):
-    """Blended energy of several poses as a weighted sum over few tets."""
+    """Blended energy of several poses as a weighted sum over a few tets."""
 
     def __init__(self, rows: TetRows, weights: NDArray[numpy.float64], material: Material, corners: NDArray[numpy.float64]) -> None: ...
 
 class BlendedStars(BlendedFunction):
     """
-    Blended ARAP energy of a surface as a weighted sum over few stars, with a quadratic form.
+    Blended ARAP energy of a surface: a weighted sum over a few stars plus a quadratic form.
     """
 
     def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, origins: NDArray[numpy.float64], forms: NDArray[numpy.float64]) -> None: ...
@@ -694,7 +706,7 @@ class BlendedStarsLoop(BlendingLoop):
     def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, origins: NDArray[numpy.float64], forms: NDArray[numpy.float64]) -> None: ...
 
 class ResidualProbe:
-    """The full objective's gradient at sampled vertices."""
+    """The gradient of the full objective at sampled vertices."""
 
     def norm(self, q: NDArray[numpy.float64], *, offsets: NDArray[numpy.float64] | None = None, weights: NDArray[numpy.float64] | None = None) -> float:
         """
@@ -702,10 +714,10 @@ class ResidualProbe:
         """
 
 def element_probe(tau: NDArray[numpy.float64], modes: NDArray[numpy.float64], rests: NDArray[numpy.float64], tets: NDArray[numpy.int32], material: Material, sampled: NDArray[numpy.int32], weights: NDArray[numpy.float64], *, pinned: NDArray[numpy.int32], handles: NDArray[numpy.int32], pulls: NDArray[numpy.float64], arms: NDArray[numpy.float64]) -> ResidualProbe:
-    """The probe of a body whose tets are independent."""
+    """The probe of a body whose energy is a sum over independent elements."""
 
 def star_probe(origins: NDArray[numpy.float64], modes: NDArray[numpy.float32], material: Material, part_stars: NDArray[numpy.int32], part_samples: NDArray[numpy.int32], part_vectors: NDArray[numpy.float64], weights: NDArray[numpy.float64], *, pinned: NDArray[numpy.int32], handles: NDArray[numpy.int32], pulls: NDArray[numpy.float64], arms: NDArray[numpy.float64]) -> ResidualProbe:
-    """The probe of a surface that is as rigid as possible."""
+    """The probe of an as-rigid-as-possible surface."""
 
 def peak_flops(*, single: bool, repeats: int = 20) -> float:
     """Peak floating-point operations per second of one thread in this build."""
@@ -715,11 +727,11 @@ def read_bandwidth(bytes: int, *, repeats: int = 20) -> float:
 
 def time_quartic(dimension: int, coefficients: NDArray[numpy.float64], q: NDArray[numpy.float64], *, single: bool = False, repeats: int = 1000) -> tuple[float, float]:
     """
-    Seconds for value and gradient, and for value, gradient and Hessian, on one thread.
+    Seconds per evaluation of value and gradient, and of value, gradient and Hessian, on one thread.
     """
 
 def time_reconstruct(tau: NDArray[numpy.float64], modes: NDArray[numpy.float64], q: NDArray[numpy.float64], *, repeats: int = 30) -> float:
-    """Seconds for tau + sum of q_i modes_i, on one thread."""
+    """Seconds to compute tau + sum of q_i modes_i on one thread."""
 
 class PartTimes:
     """Seconds and floating-point operations of the parts of an L-BFGS step."""

@@ -43,12 +43,13 @@ DoublesOut solve(const ScalarFactor& factor, MatrixIn right_hand_sides) {
 
 void bind_cholesky(nb::module_& m) {
   m.def("minimum_degree", &order<minimum_degree>, nb::arg("starts"), nb::arg("rows"),
-        "Order of elimination (n,) of a symmetric pattern, given by its columns.");
+        "Elimination order (n,) by minimum degree for a symmetric pattern, given by its columns.");
   m.def("nested_dissection", &order<nested_dissection>, nb::arg("starts"), nb::arg("rows"),
-        "The same, by nested dissection.");
+        "Elimination order (n,) by nested dissection for a symmetric pattern, given by its "
+        "columns.");
   nb::class_<ScalarFactor>(m, "ScalarFactor",
-                           "Cholesky factor of a sparse matrix (n, n), given by its columns with "
-                           "both triangles. It solves for x, y and z.")
+                           "Cholesky factor of a sparse symmetric matrix (n, n), given by its "
+                           "columns with both triangles. Solves are for x, y and z at once.")
       .def(
           "__init__",
           [](ScalarFactor* self, IndexVectorIn starts, IndexVectorIn rows, VectorIn values) {
@@ -56,14 +57,14 @@ void bind_cholesky(nb::module_& m) {
           },
           nb::arg("starts"), nb::arg("rows"), nb::arg("values"))
       .def_static("in_order", &in_order, nb::arg("starts"), nb::arg("rows"), nb::arg("values"),
-                  nb::arg("order"), "The factor for an order of elimination (n,).")
+                  nb::arg("order"), "The factor for a given elimination order (n,).")
       .def_prop_ro("nonzeros", &ScalarFactor::nonzeros)
       .def("solve", &solve<Packing::alone>, nb::arg("right_hand_side"),
            "Solution for one right-hand side (1, 3n).")
       .def("solve_lanes", &solve<Packing::lanes>, nb::arg("right_hand_sides"),
            "Solutions for up to lane_count right-hand sides (k, 3n), one per lane.")
       .def("solve_single_lanes", &solve<Packing::single_lanes>, nb::arg("right_hand_sides"),
-           "The same in single precision, for up to twice as many right-hand sides.");
+           "`solve_lanes` in single precision, for up to twice as many right-hand sides.");
 }
 
 }  // namespace snapspace

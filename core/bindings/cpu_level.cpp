@@ -5,5 +5,5 @@
 
 NB_MODULE(_cpu_level, m) {
   m.def("cpu_level", &snapspace::cpu_level,
-        "Highest x86-64 level (1 to 4) of this processor; 0 on other processors.");
+        "Highest x86-64 level (1 to 4) that this processor supports; 0 on other processors.");
 }

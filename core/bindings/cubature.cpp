@@ -51,7 +51,7 @@ void bind_blended(nb::module_& m) {
           },
           nb::arg("weights"));
   nb::class_<BlendedCubature, BlendedFunction>(
-      m, "BlendedCubature", "Blended energy of several poses as a weighted sum over few tets.")
+      m, "BlendedCubature", "Blended energy of several poses as a weighted sum over a few tets.")
       .def(
           "__init__",
           [](BlendedCubature* self, const TetRows& rows, VectorIn weights,
@@ -62,7 +62,7 @@ void bind_blended(nb::module_& m) {
           nb::arg("rows"), nb::arg("weights"), nb::arg("material"), nb::arg("corners"));
   nb::class_<BlendedStars, BlendedFunction>(
       m, "BlendedStars",
-      "Blended ARAP energy of a surface as a weighted sum over few stars, with a quadratic form.")
+      "Blended ARAP energy of a surface: a weighted sum over a few stars plus a quadratic form.")
       .def(
           "__init__",
           [](BlendedStars* self, SingleTensorIn rows, VectorIn weights,
@@ -103,13 +103,13 @@ void bind_blended(nb::module_& m) {
 
 void bind_cubature(nb::module_& m) {
   nb::class_<TetRows>(m, "TetRows",
-                      "Displacement gradients of tets, linear in all coordinates or in those of "
-                      "clusters.")
+                      "Displacement gradients of tets as linear functions of all coordinates, or "
+                      "of the local coordinates of clusters.")
       .def(nb::init<SingleTensorIn>(), nb::arg("rows"))
       .def(nb::init<IndexMatrixIn, SingleVectorIn, SingleMatrixIn>(), nb::arg("sizes"),
            nb::arg("rows"), nb::arg("modes"));
 
-  nb::class_<TetFunction, ReducedFunction>(m, "TetFunction", "A weighted sum over few tets.")
+  nb::class_<TetFunction, ReducedFunction>(m, "TetFunction", "A weighted sum over a few tets.")
       .def(
           "curvatures",
           [](TetFunction& self, VectorIn q) {
@@ -120,7 +120,8 @@ void bind_cubature(nb::module_& m) {
             return hessians;
           },
           nb::arg("q"),
-          "Weighted Hessians (r, 9, 9) of the tets by their displacement gradients, float32.")
+          "Weighted Hessians (r, 9, 9) of the tets' energies with respect to their displacement "
+          "gradients, float32.")
       .def(
           "stresses",
           [](TetFunction& self, VectorIn q) {
@@ -133,7 +134,7 @@ void bind_cubature(nb::module_& m) {
           nb::arg("q"), "Weighted stresses (r, 9) of the tets, float32.");
 
   nb::class_<Cubature, TetFunction>(m, "Cubature",
-                                    "Elastic energy as a weighted sum over few tets.")
+                                    "Elastic energy as a weighted sum over a few tets.")
       .def(
           "__init__",
           [](Cubature* self, const TetRows& rows, VectorIn weights, const MaterialField& material) {

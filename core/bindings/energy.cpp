@@ -52,7 +52,8 @@ std::pair<DoublesOut, DoublesOut> in_lanes(const ElasticEnergy& self, const Matr
 
 void bind_star_hats(nb::module_& m) {
   nb::class_<StarHats>(m, "StarHats",
-                       "Weights of the vertices in the stars of a surface, which sum to one.")
+                       "Weights of the vertices in the stars of a surface. They sum to one at "
+                       "every vertex.")
       .def("__len__", &StarHats::count)
       .def(
           "rows",
@@ -61,7 +62,8 @@ void bind_star_hats(nb::module_& m) {
                                    copy_to_array(self.vertices.data(), {self.vertices.size()}),
                                    copy_to_array(self.weights.data(), {self.weights.size()}));
           },
-          "First places (s + 1,), vertices (w,), first the center, and weights (w,).")
+          "Starts of the rows (s + 1,), vertices (w,) and weights (w,). The first vertex of a row "
+          "is the center of the star.")
       .def("__getstate__",
            [](const StarHats& self) {
              return std::make_tuple(self.first, self.vertices, self.weights);
@@ -84,13 +86,14 @@ void bind_star_hats(nb::module_& m) {
                          radius);
       },
       nb::arg("shapes"), nb::arg("triangles").noconvert(), nb::arg("radius"),
-      "Stars whose centers are at least a radius apart along edges, and less than that from every "
-      "vertex.");
+      "Stars of a surface. Their centers are at least a radius apart along edges, and every vertex "
+      "is less than a radius from a center.");
 }
 
 void bind_material(nb::module_& m) {
   nb::class_<MaterialField>(m, "Material",
-                            "A density, given by its name, with moduli (1, k) or one row per tet.")
+                            "An energy density, given by its name, and its moduli: one row (1, k), "
+                            "or one row per tet.")
       .def(
           "__init__",
           [](MaterialField* self, const std::string& kind, MatrixIn moduli,
@@ -113,7 +116,7 @@ void bind_material(nb::module_& m) {
         }
         return result;
       },
-      "Names of the moduli of every density of solids, in the order of its rows.");
+      "Names of the moduli of every density of solids, in the order of the entries of a row.");
   m.def(
       "shell_moduli",
       [](TensorIn poses, IndexMatrixIn elements, const std::string& kind, MatrixIn moduli) {
@@ -140,10 +143,9 @@ void bind_material(nb::module_& m) {
       },
       nb::arg("poses"), nb::arg("elements").noconvert(), nb::arg("kind"), nb::arg("moduli"),
       "Rows of a shell's density (k, m, 15) with each of several poses (k, n, 3) as the rest "
-      "shape: mu, lam and bending (m, 3) of the triangles and hinges, and the numbers of their "
-      "rest shapes.");
-  nb::enum_<Projection>(m, "Projection",
-                        "The matrix that Newton's method uses for the Hessian of a tet.")
+      "shape. A row has the element's mu, lam and bending from `moduli` (m, 3), and then the "
+      "numbers that describe its rest shape.");
+  nb::enum_<Projection>(m, "Projection", "How Newton's method projects the Hessian of a tet.")
       .value("none", Projection::none)
       .value("stretches", Projection::stretches)
       .value("clamp", Projection::clamp)
@@ -209,14 +211,16 @@ void bind_energy(nb::module_& m) {
             }
             return std::make_pair(stresses, energies);
           },
-          nb::arg("u"), nb::arg("which"), "`tet_stresses` of some elements (c,): (c, 9) and (c,).")
+          nb::arg("u"), nb::arg("which"),
+          "`tet_stresses` for some elements (c,): stresses (c, 9) "
+          "and energies (c,).")
       .def(
           "stars",
           [](const ElasticEnergy& self) {
             require(self.stars.has_value(), "the material has no stars");
             return *self.stars;
           },
-          "The stars of the vertices of a surface that is as rigid as possible.")
+          "The stars of an as-rigid-as-possible surface.")
       .def(
           "hessian_product",
           [](const ElasticEnergy& self, VectorIn u, VectorIn v) {
@@ -235,7 +239,7 @@ void bind_energy(nb::module_& m) {
           nb::arg("u"), nb::kw_only(), nb::arg("projection") = Projection::none,
           nb::arg("threshold") = 0.0,
           "Hessian at u, projected tet by tet, as block rows: (row_start (n+1,), columns (b,), "
-          "blocks (b,3,3)). The threshold is for Projection.stretches.")
+          "blocks (b,3,3)). Only Projection.stretches uses the threshold.")
       .def("lane_values_and_gradients", &in_lanes, nb::arg("shapes"), nb::kw_only(),
            nb::arg("single") = false,
            "Energies (k,) and gradients (k, 3n) at up to lane_count displacements (k, 3n), one per "
@@ -246,7 +250,7 @@ void bind_energy(nb::module_& m) {
             const Eigen::VectorXd diagonal = self.scalar_matrix().diagonal();
             return copy_to_array(diagonal.data(), {static_cast<std::size_t>(diagonal.size())});
           },
-          "Diagonal (n,) of the scalar matrix that stands for the Hessian of x, y and z.")
+          "Diagonal (n,) of the scalar matrix that replaces the Hessian for each of x, y and z.")
       .def(
           "inverted_tets",
           [](const ElasticEnergy& self, VectorIn u) {

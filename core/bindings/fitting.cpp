@@ -92,24 +92,25 @@ void bind_fitting(nb::module_& m) {
       .def_ro("linear_iterations", &FitReport::linear_iterations)
       .def_ro("stiffness", &FitReport::stiffness, "Stiffness of the last stage.")
       .def_ro("deviation", &FitReport::deviation,
-              "Root mean square distance of surface and target, weighted by area.")
+              "Root mean square distance between surface and target, weighted by area.")
       .def_ro("seconds", &FitReport::seconds);
 
   nb::class_<FittingSystem>(m, "FittingSystem",
-                            "The data that all poses of a mesh and surface share.")
+                            "Data that the fits of all poses of a mesh and its surface share.")
       .def("__init__", &construct, nb::arg("vertices"), nb::arg("tets").noconvert(),
            nb::arg("corners").noconvert(), nb::arg("weights"), nb::arg("areas"))
       .def("energy", &energy, nb::arg("u"), nb::kw_only(), nb::arg("stretch"),
-           "Symmetric Dirichlet energy at displacements u (3n,), infinite if a tet is inverted or "
-           "reaches the stretch, and its gradient (3n,).")
+           "Symmetric Dirichlet energy at displacements u (3n,), and its gradient (3n,). The "
+           "energy is infinite if a tet is inverted or reaches the largest stretch.")
       .def("projected_hessian_product", &hessian_product, nb::arg("u"), nb::arg("v"), nb::kw_only(),
            nb::arg("stretch"),
-           "Hessian of the energy at u, projected tet by tet to a semi-definite one, times v "
-           "(3n,).")
+           "Product of v (3n,) and the Hessian of the energy at u, whose tets are projected to "
+           "positive semi-definite matrices.")
       .def("fit", &fit, nb::arg("targets"), nb::kw_only(), nb::arg("deviation"),
            nb::arg("first_stiffness"), nb::arg("stretch"), nb::arg("max_iterations"),
            nb::arg("control"),
-           "Displacements (3n,) that bring the surface to displacements (s, 3), and a report.");
+           "Displacements (3n,) that move the surface points by the target displacements (s, 3), "
+           "and a report.");
 }
 
 }  // namespace snapspace

@@ -8,8 +8,8 @@ namespace snapspace {
 
 void bind_linear_response(nb::module_& m) {
   nb::class_<LinearResponse>(m, "LinearResponse",
-                             "Displacements of a posing system, linearised at rest, for small "
-                             "displacements (count, input_size) of its handles.")
+                             "Linear responses of a posing system at rest: its displacements for "
+                             "small displacements (count, input_size) of the handles.")
       .def(
           "__init__",
           [](LinearResponse* self, const PosingSystem& system, MatrixIn inputs) {
@@ -38,8 +38,9 @@ void bind_linear_response(nb::module_& m) {
             return displacements;
           },
           nb::arg("system"), nb::arg("coordinates"), nb::arg("inputs"),
-          "Displacements (samples, 3n) near the solutions for inputs (samples, input_size). The "
-          "combinations of responses with coordinates (samples, count) are their linear parts.");
+          "Displacements (samples, 3n) near the solutions for inputs (samples, input_size). Their "
+          "linear parts are combinations of the responses with coefficients `coordinates` "
+          "(samples, count).");
 }
 
 }  // namespace snapspace

@@ -37,7 +37,8 @@ void bind_measure(nb::module_& m) {
       },
       nb::arg("dimension"), nb::arg("coefficients"), nb::arg("q"), nb::kw_only(),
       nb::arg("single") = false, nb::arg("repeats") = 1000,
-      "Seconds for value and gradient, and for value, gradient and Hessian, on one thread.");
+      "Seconds per evaluation of value and gradient, and of value, gradient and Hessian, on one "
+      "thread.");
   m.def(
       "time_reconstruct",
       [](VectorIn tau, MatrixIn modes, VectorIn q, int repeats) {
@@ -48,7 +49,7 @@ void bind_measure(nb::module_& m) {
                                 q.data(), repeats);
       },
       nb::arg("tau"), nb::arg("modes"), nb::arg("q"), nb::kw_only(), nb::arg("repeats") = 30,
-      "Seconds for tau + sum of q_i modes_i, on one thread.");
+      "Seconds to compute tau + sum of q_i modes_i on one thread.");
 
   nb::class_<PartTimes>(m, "PartTimes",
                         "Seconds and floating-point operations of the parts of an L-BFGS step.")

@@ -22,7 +22,7 @@ void bind_measure(nb::module_& m);
 namespace {
 
 void bind_all(nb::module_& m) {
-  // Objects that outlive the interpreter are not leaks, and users should not see warnings of them.
+  // Objects that outlive the interpreter are not leaks, so users should not see warnings of leaks.
   nb::set_leak_warnings(false);
   m.doc() = "The compiled core: the computations of snapspace that must be fast.";
   m.attr("lane_count") = samples_together(Packing::lanes);

@@ -19,13 +19,14 @@ DoublesOut apply(const TwoGridCycle& cycle, MatrixIn right_hand_sides) {
 }  // namespace
 
 void bind_multigrid(nb::module_& m) {
-  nb::enum_<InverseKind>(m, "InverseKind", "What is used as the inverse of a scalar matrix.")
+  nb::enum_<InverseKind>(m, "InverseKind", "How the inverse of a scalar matrix is applied.")
       .value("automatic", InverseKind::automatic)
       .value("factor", InverseKind::factor)
       .value("cycle", InverseKind::cycle);
   nb::class_<TwoGridCycle>(m, "TwoGridCycle",
-                           "Multigrid cycle that replaces the inverse of a sparse matrix (n, n), "
-                           "given by its columns with both triangles; for x, y and z.")
+                           "Two-grid cycle that approximates the inverse of a sparse symmetric "
+                           "matrix (n, n), given by its columns with both triangles. It is applied "
+                           "to x, y and z at once.")
       .def(
           "__init__",
           [](TwoGridCycle* self, IndexVectorIn starts, IndexVectorIn rows, VectorIn values) {
@@ -40,14 +41,14 @@ void bind_multigrid(nb::module_& m) {
             return lowest_eigenvalue(sparse_matrix(starts, rows, values), self);
           },
           nb::arg("starts"), nb::arg("rows"), nb::arg("values"),
-          "Estimate from above of the lowest eigenvalue of cycle * matrix, for the matrix of the "
-          "cycle.")
+          "Estimate from above of the lowest eigenvalue of cycle * matrix. The matrix must be the "
+          "one that the cycle was made from.")
       .def("apply", &apply<Packing::alone>, nb::arg("right_hand_side"),
            "Cycle times one right-hand side (1, 3n).")
       .def("apply_lanes", &apply<Packing::lanes>, nb::arg("right_hand_sides"),
            "Cycle times up to lane_count right-hand sides (k, 3n), one per lane.")
       .def("apply_single_lanes", &apply<Packing::single_lanes>, nb::arg("right_hand_sides"),
-           "The same in single precision, for up to twice as many right-hand sides.");
+           "`apply_lanes` in single precision, for up to twice as many right-hand sides.");
 }
 
 }  // namespace snapspace

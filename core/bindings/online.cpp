@@ -51,7 +51,9 @@ void bind_functions(nb::module_& m) {
 
 /// Binds what the loops of all problems share.
 void bind_loop(nb::module_& m) {
-  nb::class_<LiveLoop>(m, "LiveLoop", "Solves frame by frame, each from the last one.")
+  nb::class_<LiveLoop>(m, "LiveLoop",
+                       "Solves frame by frame; every solve starts from the last "
+                       "frame.")
       .def_prop_rw(
           "q",
           [](const LiveLoop& self) {
@@ -111,7 +113,7 @@ void bind_loop(nb::module_& m) {
 
 void bind_posing(nb::module_& m) {
   nb::class_<PosingLoop, LiveLoop>(
-      m, "PosingLoop", "The live loop of posing: set offsets, solve from the last frame.")
+      m, "PosingLoop", "The live loop of posing: set offsets, then solve from the last frame.")
       .def(
           "__init__",
           [](PosingLoop* self, VectorIn coefficients, MatrixIn K, TensorIn L, TensorIn S,
@@ -142,7 +144,7 @@ void bind_posing(nb::module_& m) {
 
 void bind_blending(nb::module_& m) {
   nb::class_<BlendingLoop, LiveLoop>(
-      m, "BlendingLoop", "The live loop of blending: set weights, solve from the last frame.")
+      m, "BlendingLoop", "The live loop of blending: set weights, then solve from the last frame.")
       .def(
           "__init__",
           [](BlendingLoop* self, int dimension, MatrixIn coefficients, bool single) {
@@ -179,7 +181,7 @@ void bind_shape_rows(nb::module_& m) {
           },
           nb::arg("tau"), nb::arg("modes"))
       .def_prop_ro("bytes", &live::ShapeRows::bytes,
-                   "Bytes that are read for a shape of all modes.")
+                   "Bytes that are read to compute a shape from all modes.")
       .def(
           "shape",
           [](const live::ShapeRows& self, VectorIn q, int threads) {
@@ -193,8 +195,8 @@ void bind_shape_rows(nb::module_& m) {
             return shape;
           },
           nb::arg("q"), nb::kw_only(), nb::arg("threads") = 0,
-          "tau + U q (3n,) of the first coordinates in single precision, on this many threads (0: "
-          "as many as are worthwhile).");
+          "tau + U q (3n,) in single precision, where q has the first coordinates, on this many "
+          "threads (0: as many as are worthwhile).");
 }
 
 }  // namespace

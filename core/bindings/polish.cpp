@@ -42,9 +42,10 @@ void bind_polish(nb::module_& m) {
       nb::arg("system"), nb::arg("coarse").none(), nb::arg("inverse"), nb::arg("input"),
       nb::arg("start"), nb::kw_only(), nb::arg("tolerance"), nb::arg("max_iterations"),
       nb::arg("threads"), nb::arg("control"),
-      "L-BFGS on one sample from start (3n,), with a two-level seed; inverse (d, d) is that of the "
-      "Hessian on the coarse space, or (0, 0) without one, as for surfaces with patches. If it is "
-      "cancelled, it returns the lowest shape so far.");
+      "Runs L-BFGS on one sample from start (3n,), with a two-level seed. `inverse` (d, d) is the "
+      "inverse of the Hessian on the coarse space; without a coarse space, as for surfaces with "
+      "patches, it is (0, 0). If the solve is cancelled, the shape with the lowest objective so "
+      "far is returned.");
 }
 
 }  // namespace snapspace

@@ -48,8 +48,8 @@ void bind_training(nb::module_& m) {
       },
       nb::arg("rows"), nb::arg("stresses"), nb::arg("along"), nb::arg("columns"), nb::kw_only(),
       nb::arg("threads"),
-      "Writes the products of all tets' forces with directions (s, d, k) to the first s k entries "
-      "of each row of columns.");
+      "Writes the products of all tets' forces and the directions `along` (s, d, k) to the first s "
+      "* k entries of each row of columns.");
 }
 
 }  // namespace
@@ -71,8 +71,8 @@ void bind_reduction(nb::module_& m) {
         return copy_to_array(coefficients.data(), {coefficients.size()});
       },
       nb::arg("energy"), nb::arg("modes"), nb::kw_only(), nb::arg("threads"),
-      "Packed symmetric coefficients (C(d+4, 4),) of the reduced elastic energy; "
-      "modes (d+1, 3n): offset, then basis.");
+      "Packed symmetric coefficients (C(d+4, 4),) of the reduced elastic energy. Modes (d+1, 3n) "
+      "are the offset, then the basis.");
 }
 
 }  // namespace snapspace

@@ -47,7 +47,7 @@ struct BoundPins {
             arms.data()};
   }
 
-  /// How many handles they need.
+  /// Number of handles that the pins refer to: the largest index plus one.
   [[nodiscard]] std::size_t count() const {
     std::size_t count = 0;
     for (std::size_t i = 0; i < handles.size(); ++i) {
@@ -136,7 +136,9 @@ double norm(BoundProbe& self, const VectorIn& q, const std::optional<TensorIn>& 
 }  // namespace
 
 void bind_residual_probe(nb::module_& m) {
-  nb::class_<BoundProbe>(m, "ResidualProbe", "The full objective's gradient at sampled vertices.")
+  nb::class_<BoundProbe>(m, "ResidualProbe",
+                         "The gradient of the full objective at sampled "
+                         "vertices.")
       .def("norm", &norm, nb::arg("q"), nb::kw_only(), nb::arg("offsets").none() = nb::none(),
            nb::arg("weights").none() = nb::none(),
            "Estimate of the residual's norm, for offsets (h, 3, 4) or weights (k,).");
@@ -150,7 +152,9 @@ void bind_residual_probe(nb::module_& m) {
       },
       nb::arg("tau"), nb::arg("modes"), nb::arg("rests"), nb::arg("tets"), nb::arg("material"),
       nb::arg("sampled"), nb::arg("weights"), nb::kw_only(), nb::arg("pinned"), nb::arg("handles"),
-      nb::arg("pulls"), nb::arg("arms"), "The probe of a body whose tets are independent.");
+      nb::arg("pulls"), nb::arg("arms"),
+      "The probe of a body whose energy is a sum over "
+      "independent elements.");
   m.def(
       "star_probe",
       [](MatrixIn origins, SingleTensorIn modes, const MaterialField& material,
@@ -163,7 +167,7 @@ void bind_residual_probe(nb::module_& m) {
       nb::arg("origins"), nb::arg("modes"), nb::arg("material"), nb::arg("part_stars"),
       nb::arg("part_samples"), nb::arg("part_vectors"), nb::arg("weights"), nb::kw_only(),
       nb::arg("pinned"), nb::arg("handles"), nb::arg("pulls"), nb::arg("arms"),
-      "The probe of a surface that is as rigid as possible.");
+      "The probe of an as-rigid-as-possible surface.");
 }
 
 }  // namespace snapspace

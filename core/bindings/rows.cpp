@@ -55,7 +55,7 @@ void bind_rows(nb::module_& m) {
   nb::class_<HeldMassProducts>(
       m, "MassProducts",
       "Inner products of displacements (3n,) with respect to a scalar matrix (n, n), given row by "
-      "row. Not for several threads at a time.")
+      "row. Only one thread may use it at a time.")
       .def(
           "__init__",
           [](HeldMassProducts* self, IndexVectorIn starts, IndexVectorIn columns, VectorIn values) {

@@ -13,7 +13,7 @@ struct Batch {
   long linear_iterations = 0;
 };
 
-/// Numbers of a sample's input, see LowRankSeed.
+/// Size of a sample's input, see LowRankSeed.
 std::size_t input_size(const SampleSystem& system, const CoarseSpace* coarse) {
   const std::size_t d = coarse ? static_cast<std::size_t>(coarse->dimension()) : 0;
   return static_cast<std::size_t>(system.input_size()) + d * d;
@@ -71,10 +71,10 @@ using System = SampleSystem;
 /// Binds what the systems of all problems share.
 void bind_system(nb::module_& m) {
   nb::class_<System>(m, "SampleSystem",
-                     "The data that all samples of a problem share, with its scalar factor.")
+                     "Data that all samples of a problem share, with the scalar factor.")
       .def_prop_ro(
           "inverse", [](const System& self) { return self.inverse.kind(); },
-          "What is used as the inverse of the scalar matrix.")
+          "How the inverse of the scalar matrix is applied.")
       .def_prop_ro("inverse_products", [](const System& self) { return self.inverse.products(); })
       .def_prop_ro(
           "lowest_eigenvalue", [](const System& self) { return self.inverse.lowest_eigenvalue(); },
@@ -132,7 +132,7 @@ void bind_system(nb::module_& m) {
           },
           nb::arg("shapes"), nb::arg("inputs"), nb::kw_only(), nb::arg("threads") = 0,
           "Objectives (k,) at displacements (k, 3n) for inputs (k, input_size), and their "
-          "gradients (k, 3n). Several are computed in one pack.")
+          "gradients (k, 3n). A pack computes several of them.")
       .def(
           "evaluate_in_pack",
           [](const System& self, MatrixIn shapes, MatrixIn inputs, int width, bool single) {
@@ -152,8 +152,9 @@ void bind_system(nb::module_& m) {
             return std::make_tuple(values, gradients, products, images);
           },
           nb::arg("shapes"), nb::arg("inputs"), nb::kw_only(), nb::arg("width"), nb::arg("single"),
-          "Objectives (k,) and gradients (k, 3n) as `evaluate`, in one pack of a width; the "
-          "gradients times the seed of the inverse Hessian, and the products of both.")
+          "As `evaluate`, in one pack of this width: objectives (k,), gradients (k, 3n), products "
+          "(k,) of gradients and images, and images (k, 3n): the inverse Hessian's seed times "
+          "gradients.")
       .def(
           "put",
           [](const System& self, SampleQueue& queue, int id, VectorIn input, VectorIn start,
@@ -209,9 +210,8 @@ void bind_system(nb::module_& m) {
           nb::arg("single") = false, nb::arg("settling") = 0.0,
           nb::arg("modes").none() = nb::none(), nb::arg("coarse").none() = nb::none(),
           "Solves by L-BFGS; inputs (samples, input_size), starts (samples, 3n). With a coarse "
-          "space "
-          "inputs are (samples, input_size + d * d): after the system's come the inverse Hessians "
-          "(d, d) of the samples on that space.")
+          "space, inputs are (samples, input_size + d * d): an input ends with the inverse Hessian "
+          "(d, d) of its sample on that space.")
       .def(
           "solve_newton",
           [](const System& self, MatrixIn inputs, MatrixIn starts, double tolerance,
@@ -247,8 +247,7 @@ void bind_snapshots(nb::module_& m) {
       .def_ro("gradient_norm", &SolveReport::gradient_norm, "Euclidean norm of its gradient.")
       .def_ro("decrement", &SolveReport::decrement,
               "-g.d of the last direction d: twice the decrease that the quadratic model predicts.")
-      .def_ro("seconds", &SolveReport::seconds,
-              "Wall time from taking this sample to finishing it.")
+      .def_ro("seconds", &SolveReport::seconds, "Wall time from the start to the end of the solve.")
       .def_ro("inverted_tets", &SolveReport::inverted_tets);
 
   nb::class_<SolveControl>(m, "SolveControl",
@@ -269,7 +268,7 @@ void bind_snapshots(nb::module_& m) {
   nb::class_<SampleQueue>(m, "SampleQueue",
                           "Passes samples to the threads that solve them, and solutions back.")
       .def(nb::init<>())
-      .def("close", &SampleQueue::close, "No more samples will come.")
+      .def("close", &SampleQueue::close, "Declares that no more samples will come.")
       .def("running", &SampleQueue::running,
            "Samples that are being solved, with their evaluations so far.")
       .def(

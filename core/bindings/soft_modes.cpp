@@ -7,9 +7,9 @@ namespace snapspace {
 void bind_soft_modes(nb::module_& m) {
   nb::class_<SoftModes>(
       m, "SoftModes",
-      "Deformations that the scalar factor of a posing system mistakes for stiff, "
-      "for the seed of L-BFGS: the lowest modes of its Hessian at rest against "
-      "the scalar matrix.")
+      "Soft modes of a posing system for the seed of L-BFGS: the lowest generalised eigenvectors "
+      "of its Hessian at rest with respect to the scalar matrix. The scalar factor mistakes these "
+      "deformations for stiff ones.")
       .def(
           "__init__",
           [](SoftModes* self, const PosingSystem& system) {

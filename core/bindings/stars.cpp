@@ -5,7 +5,9 @@
 namespace snapspace {
 
 void bind_stars(nb::module_& m) {
-  nb::class_<VertexStars>(m, "VertexStars", "The stars of a surface, elements of its ARAP energy.")
+  nb::class_<VertexStars>(m, "VertexStars",
+                          "The stars of a surface: the elements of its ARAP "
+                          "energy.")
       .def(
           "corners",
           [](const VertexStars& self) {
@@ -14,8 +16,8 @@ void bind_stars(nb::module_& m) {
                 copy_to_array(self.corners.data(), {self.corners.size()}),
                 copy_to_array(self.gradients.data(), {self.corners.size(), 3}));
           },
-          "First corners (s + 1,), vertices (c,) and gradients (c, 3): the gradient of a star is "
-          "the sum of u (x) gradient over its corners.")
+          "First corners (s + 1,), vertices (c,) and gradients (c, 3). The displacement gradient "
+          "of a star is the sum of u (x) gradient over its corners.")
       .def(
           "triangles",
           [](const VertexStars& self) {
@@ -24,8 +26,8 @@ void bind_stars(nb::module_& m) {
                 copy_to_array(self.triangles.data(), {self.triangles.size()}),
                 copy_to_array(self.shares.data(), {self.shares.size()}));
           },
-          "First triangles (s + 1,), triangles (t,) and shares (t,): a triangle's weight in a star "
-          "is the share of a third of its area times its modulus.")
+          "First triangles (s + 1,), triangles (t,) and shares (t,). A triangle's weight in a star "
+          "is its share times a third of its area times its modulus.")
       .def(
           "numbers",
           [](const VertexStars& self) {
@@ -36,7 +38,7 @@ void bind_stars(nb::module_& m) {
               self.write_numbers(static_cast<int>(star), rows.data() + kCount * star);
             return rows;
           },
-          "Rows of the density \"shell-arap\" (s, 12), of modulus one.")
+          "Rows of the density \"shell-arap\" (s, 12), with modulus one.")
       .def(
           "areas",
           [](const VertexStars& self) {
@@ -48,7 +50,7 @@ void bind_stars(nb::module_& m) {
           [](const VertexStars& self) {
             return copy_to_array(self.weights.data(), {self.weights.size()});
           },
-          "The same of areas times moduli, (s,).")
+          "The same sums with areas times moduli, (s,).")
       .def(
           "couplings",
           [](const VertexStars& self) {
@@ -57,7 +59,7 @@ void bind_stars(nb::module_& m) {
                 copy_to_array(self.neighbours.data(), {self.neighbours.size()}),
                 copy_to_array(self.couplings.data(), {self.couplings.size()}));
           },
-          "First neighbours (n + 1,), vertices (e,) and couplings (e,): the Dirichlet energy is "
+          "First neighbours (n + 1,), vertices (e,) and couplings (e,). The Dirichlet energy is "
           "the sum of coupling * u_i . (u_j - u_i) over all vertices and their neighbours.");
 }
 

@@ -29,7 +29,7 @@ LocalMesh local_mesh(const double* vertices, std::size_t count, const IndexMatri
 void bind_systems(nb::module_& m) {
   nb::class_<PosingSystem, System> posing(
       m, "PosingSystem",
-      "The data that all samples of a posing problem share, with its scalar factor. Inputs are "
+      "Data that all samples of a posing problem share, with the scalar factor. Inputs are the "
       "target displacements of the pinned vertices.");
   posing.def(
       "__init__",
@@ -51,8 +51,8 @@ void bind_systems(nb::module_& m) {
 
   nb::class_<InterpolationSystem, System> interpolation(
       m, "InterpolationSystem",
-      "The data that all samples of an interpolation problem share, with its scalar factor. Inputs "
-      "are the weights; displacements are from pose 0.");
+      "Data that all samples of an interpolation problem share, with the scalar factor. Inputs are "
+      "the weights of the poses, and displacements are from pose 0.");
   interpolation.def(
       "__init__",
       [](InterpolationSystem* self, TensorIn poses, IndexMatrixIn tets,
@@ -85,8 +85,8 @@ void bind_systems(nb::module_& m) {
         return self.adapted(renumbered, {weights.data(), weights.data() + weights.size()});
       },
       nb::arg("shapes"), nb::arg("weights"),
-      "The same problem with an inverse for solutions near displacements (k, 3n) for weights (k, "
-      "poses).");
+      "The same system with an inverse that is adapted to solutions: those near displacements (k, "
+      "3n) for weights (k, poses).");
   interpolation.def(
       "some_tet_stresses",
       [](const InterpolationSystem& self, VectorIn u, VectorIn weights, IndexVectorIn which) {
@@ -94,7 +94,7 @@ void bind_systems(nb::module_& m) {
         std::vector<std::int32_t> places(self.tet_order.size(), -1);  // in the result
         for (std::size_t i = 0; i < which.size(); ++i) {
           require(which(i) >= 0 && which(i) < self.energy->tets(), "a tet is not in the mesh");
-          require(places[which(i)] < 0, "a tet is there twice");
+          require(places[which(i)] < 0, "a tet occurs twice");
           places[which(i)] = static_cast<std::int32_t>(i);
         }
         DoublesOut stresses = new_array<double>({which.size(), 9}),
@@ -116,8 +116,8 @@ void bind_systems(nb::module_& m) {
         return std::make_pair(stresses, energies);
       },
       nb::arg("u"), nb::arg("weights"), nb::arg("which"),
-      "First Piola-Kirchhoff stress against pose 0 times its volume (c, 9) and energy (c,) of some "
-      "different tets (c,).");
+      "First Piola-Kirchhoff stress relative to pose 0, times the volume there, (c, 9), and energy "
+      "(c,) of some tets (c,), each of which occurs once.");
   interpolation.def(
       "tet_hessians",
       [](const InterpolationSystem& self, VectorIn u, VectorIn weights) {
@@ -136,7 +136,8 @@ void bind_systems(nb::module_& m) {
         return result;
       },
       nb::arg("u"), nb::arg("weights"),
-      "Hessian (m, 9, 9) of each tet's energy by its displacement gradient against pose 0.");
+      "Hessian (m, 9, 9) of each tet's energy with respect to its displacement gradient relative "
+      "to pose 0.");
 }
 
 }  // namespace snapspace
