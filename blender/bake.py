@@ -1,4 +1,4 @@
-"""Baking: the solved film as shape keys with keyframes, for files that need no extension."""
+"""Baking: the solved film as shape keys with keyframes, for use without the extension."""
 
 from collections.abc import Iterator
 
@@ -13,7 +13,7 @@ from .principal_shapes import principal_shapes
 
 
 class SNAPSPACE_OT_bake(bpy.types.Operator):
-    """Solve every frame of the scene, and animate shape keys that show it without Snapspace"""
+    """Solve every frame of the scene, and bake it into shape keys that play without Snapspace"""
 
     bl_idname = "snapspace.bake"
     bl_label = "Bake"
@@ -21,7 +21,7 @@ class SNAPSPACE_OT_bake(bpy.types.Operator):
 
     tolerance: bpy.props.FloatProperty(
         name="Tolerance",
-        description="Largest distance of a vertex from the solved film, as a share of the diagonal",
+        description="Largest error of a vertex in any frame, as a share of the mesh's diagonal",
         default=1e-4,
         min=1e-6,
         max=0.1,
@@ -29,7 +29,7 @@ class SNAPSPACE_OT_bake(bpy.types.Operator):
     )
     most: bpy.props.IntProperty(
         name="Most shape keys",
-        description="Even if the tolerance needs more; one of them may be an offset",
+        description="Limit, even if the tolerance needs more keys; one of them may be an offset",
         default=64,
         min=2,
         max=500,
@@ -81,7 +81,7 @@ def _write(
     values: np.ndarray,
     frames: range,
 ) -> None:
-    """Replaces earlier baked keys, and switches the live shape off, so that they do not add up."""
+    """Replaces earlier baked keys, and switches the live shape off, so that both do not add up."""
     owner.snapspace.live = False
     for key in baked_keys(owner):
         _forget_motion(key)
@@ -97,7 +97,7 @@ def _write(
 
 
 def _forget_motion(key: bpy.types.ShapeKey) -> None:
-    """Removes the keyframes of a key, which a key of the same name would get again."""
+    """Removes the keyframes of a key, which a new key of the same name would inherit."""
     path = key.path_from_id("value")
     for curves in _curves(key.id_data):
         for curve in [curve for curve in curves if curve.data_path == path]:
@@ -105,7 +105,7 @@ def _forget_motion(key: bpy.types.ShapeKey) -> None:
 
 
 def _curves(keys: bpy.types.Key) -> Iterator[bpy.types.bpy_prop_collection]:
-    """The curves of the keys' action. Since 5.0 Blender has them by the slot of who is animated."""
+    """The animation curves of the keys. Since 5.0 Blender stores them by slots of an action."""
     animation = keys.animation_data
     action = None if animation is None else animation.action
     if action is None:

@@ -25,11 +25,11 @@ from .mesh_data import (
 from .problems import Motions, blending_growths, posing_growths, solid_of
 
 Growths = Iterator[ss.Growth]
-INTERVAL = 0.1  # seconds between two looks for news
+INTERVAL = 0.1  # seconds between two checks for news
 
 
 def posing_work(owner: bpy.types.Object) -> Callable[[], Growths]:
-    """What computes the model of an object's vertex groups. ValueError for an unusable object."""
+    """A function that computes a model of the vertex groups; ValueError for an unusable object."""
     check_scale(owner)
     check_alone(owner)
     settings, handles = owner.snapspace, handle_vertices(owner)
@@ -43,7 +43,7 @@ def posing_work(owner: bpy.types.Object) -> Callable[[], Growths]:
 
 
 def blending_work(owner: bpy.types.Object) -> Callable[[], Growths]:
-    """What computes the model of an object's shape keys. ValueError for an unusable object."""
+    """A function that computes a model of the shape keys; ValueError for an unusable object."""
     check_scale(owner)
     points, faces = rest_points(owner.data), triangles(owner.data)
     poses = {key.name: key_points(key) for key in pose_keys(owner)}
@@ -55,7 +55,7 @@ def blending_work(owner: bpy.types.Object) -> Callable[[], Growths]:
 
 
 class _Computation:
-    """The growths of a thread. `news` has each of them, an Exception, and None at the end."""
+    """A computation in a thread. `news` gets the growths, any Exception, and None at the end."""
 
     def __init__(self, work: Callable[[], Growths]) -> None:
         self.news: queue.SimpleQueue[ss.Growth | Exception | None] = queue.SimpleQueue()
@@ -79,7 +79,7 @@ class _Computation:
 
 
 class _Compute:
-    """What both operators do: show each better model, and store the last."""
+    """What both operators share: they show each better model, and store the last one."""
 
     bl_options = {"REGISTER"}
     work: Callable[[bpy.types.Object], Callable[[], Growths]]
@@ -169,7 +169,7 @@ def _said(growth: ss.Growth) -> str:
 
 
 class SNAPSPACE_OT_compute(_Compute, bpy.types.Operator):
-    """Make a model of the vertex groups as handles, and empties that move them"""
+    """Make a model with the vertex groups as handles, and empties that move the handles"""
 
     bl_idname = "snapspace.compute"
     bl_label = "Compute"
@@ -177,7 +177,7 @@ class SNAPSPACE_OT_compute(_Compute, bpy.types.Operator):
 
 
 class SNAPSPACE_OT_compute_blend(_Compute, bpy.types.Operator):
-    """Make a model of the shape keys as poses. Their values then are weights of elastic blends"""
+    """Make a model with the shape keys as poses. Their values are then weights of elastic blends"""
 
     bl_idname = "snapspace.compute_blend"
     bl_label = "Compute Blends"

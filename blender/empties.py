@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
-#: Custom properties of an empty: the handle's name, and its place at rest in the mesh's frame.
+#: Custom properties of an empty: the handle's name, and its rest position in the mesh's frame.
 HANDLE, REST = "snapspace_handle", "snapspace_rest"
 #: Size of an empty as a share of the mesh's diagonal.
 SIZE = 0.06
@@ -51,7 +51,7 @@ def check_alone(owner: bpy.types.Object) -> None:
         if other is not owner and other.data == owner.data and handle_empties(other):
             raise ValueError(
                 f"{owner.name} and {other.name} share a mesh, which the empties of {other.name} "
-                "move; give it a mesh of its own (Object > Relations > Make Single User)"
+                f"move; give {owner.name} its own mesh (Object > Relations > Make Single User)"
             )
 
 
@@ -61,7 +61,8 @@ def motions_of(
     """Rotation matrix and translation of each handle from rest, in the frame of the object.
 
     Animation, drivers and constraints of the empties count; their scales do not. A handle whose
-    empty was removed rests. ValueError if all were, as in a copy of the object alone.
+    empty was removed stays at rest. ValueError if all were removed, as in a copy of the object
+    without its empties.
     """
     to_owner = owner.evaluated_get(depsgraph).matrix_world.inverted_safe()
     empties = {name: one for name, one in handle_empties(owner).items() if name in names}

@@ -1,4 +1,4 @@
-"""The live solve: when an empty or a weight changes, the solved shape goes into a shape key."""
+"""The live solve: when an empty or a weight changes, a shape key gets the solved shape."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from .empties import motions_of
 from .mesh_data import pose_keys, result_key, write_key
 from .problems import weights_of
 
-#: What was solved for last, by the object's session id.
+#: The empties or weights of the last solve, by the object's session id.
 _solved: dict[int, bytes] = {}
 
 
 def solved_points(owner: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> np.ndarray | None:
-    """Points (s, 3) for the present empties or weights; None without a model, or if none changed.
+    """Points (s, 3) for the current empties or weights; None without a model or without changes.
 
     ValueError as for `models.session`.
     """
@@ -66,7 +66,7 @@ def update_all(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
 
 
 def forget() -> None:
-    """The next update solves for every object."""
+    """Makes the next update solve for every object."""
     _solved.clear()
 
 

@@ -1,4 +1,4 @@
-"""What a mesh object has for us: points, triangles, handles from vertex groups, poses from keys."""
+"""Data of a mesh object: points, triangles, handles from vertex groups, poses from shape keys."""
 
 import bpy
 import numpy as np
@@ -9,12 +9,12 @@ RESULT = "Snapspace"
 BAKED = "Baked"
 #: Vertices with at least this weight belong to a group's handle.
 WEIGHT = 0.5
-#: Scales along two axes that differ by less than this share are the same.
+#: Scales along two axes that differ by less than this share count as equal.
 SAME_SCALE = 1e-4
 
 
 def check_scale(owner: bpy.types.Object) -> None:
-    """ValueError for an object whose scale differs between axes: its solid would be another one."""
+    """ValueError if an object's scale differs between axes, which would change its solid."""
     scale = np.abs(owner.matrix_world.to_scale())
     if scale.max() > (1 + SAME_SCALE) * scale.min():
         raise ValueError(f"{owner.name}: its scale is not uniform; apply it (Ctrl+A, Scale)")
@@ -51,9 +51,10 @@ def triangles(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def handle_vertices(owner: bpy.types.Object) -> dict[str, np.ndarray]:
-    """Vertices of each vertex group. A vertex of several groups belongs to the one of most weight.
+    """Vertices of each vertex group, which have at least the weight `WEIGHT` in it.
 
-    Groups without such vertices, and those whose names begin with "_", are no handles.
+    A vertex in several groups belongs to the one with the largest weight. Groups without vertices,
+    and groups whose names begin with "_", are not handles.
     """
     groups = {group.index: group.name for group in owner.vertex_groups}
     members: dict[str, list[int]] = {name: [] for name in groups.values() if name[0] != "_"}
@@ -80,7 +81,7 @@ def baked_keys(owner: bpy.types.Object) -> list[bpy.types.ShapeKey]:
 def result_key(owner: bpy.types.Object) -> bpy.types.ShapeKey:
     """The shape key of the solved shape, made at rest if there is none.
 
-    Baked keys show the same film, and are muted, so that they do not add up.
+    Baked keys show the same film. They are muted so that both do not add up.
     """
     if owner.data.shape_keys is None:
         owner.shape_key_add(name="Basis", from_mix=False)

@@ -15,16 +15,16 @@ import snapspace as ss
 
 from .mesh_data import rest_points
 
-#: Sessions by the model's file and its time of change.
+#: Sessions by the model's file and its modification time.
 _sessions: dict[tuple[str, float], Any] = {}
 #: Vertices at rest that differ by more than this share of the diagonal were edited.
 _EDITED = 1e-4
-#: The newest model of an object whose computation is not over, by the object's session id.
+#: The session of the newest model during a computation, by the object's session id.
 _growing: dict[int, Any] = {}
 
 
 def model_path(owner: bpy.types.Object) -> Path:
-    """Where the model of an object is stored: beside the .blend file, if that was saved."""
+    """Where the model of an object is stored: beside the .blend file if that was saved."""
     name = bpy.path.clean_name(owner.name)
     if bpy.data.filepath:
         file = Path(bpy.data.filepath)
@@ -34,7 +34,7 @@ def model_path(owner: bpy.types.Object) -> Path:
 
 
 def store(owner: bpy.types.Object, model: ss.ReducedModel) -> Path:
-    """Saves a model as that of an object."""
+    """Saves a model as the model of an object."""
     path = model_path(owner)
     model.save(path)
     relative = bpy.path.relpath(str(path)) if bpy.data.filepath else str(path)
@@ -44,7 +44,7 @@ def store(owner: bpy.types.Object, model: ss.ReducedModel) -> Path:
 
 
 def show(owner: bpy.types.Object, model: ss.ReducedModel) -> None:
-    """Takes a model that is not yet stored, until `store`."""
+    """Uses a model that is not stored yet, until `store` is called."""
     _growing[owner.session_uid] = model.session()
 
 
@@ -74,7 +74,7 @@ def session(owner: bpy.types.Object) -> Any:
 
 
 def check_rest(owner: bpy.types.Object, model: ss.ReducedModel) -> None:
-    """ValueError if the rest shape was edited, whose changes a solved shape would take back."""
+    """ValueError if the rest shape was edited: a solved shape would undo these edits."""
     mesh = model.problem.mesh
     change = rest_points(owner.data) - model.surface.vertices(mesh.vertices)
     if np.abs(change).max() > _EDITED * mesh.diagonal:
@@ -99,6 +99,6 @@ def follow(file: Path) -> None:
 
 
 def forget() -> None:
-    """Forgets all sessions, as for another .blend file."""
+    """Forgets all sessions, for instance when another .blend file is opened."""
     _sessions.clear()
     _growing.clear()

@@ -6,7 +6,7 @@ from .mesh_data import pose_keys
 
 
 class SNAPSPACE_PT_panel(bpy.types.Panel):
-    """Settings, the operators, and what the present model is"""
+    """Settings, operators, and the state of the current model"""
 
     bl_label = "Snapspace"
     bl_space_type = "VIEW_3D"

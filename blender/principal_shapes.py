@@ -1,4 +1,4 @@
-"""The fewest shapes whose sums are a film, within a tolerance. Nothing here uses bpy."""
+"""The fewest shapes whose weighted sums are a film within a tolerance. Nothing here uses bpy."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class PrincipalShapes:
-    """A film as sums of shapes.
+    """A film as weighted sums of shapes.
 
     shapes : (k, s, 3) displacements from rest
     values : (f, k), between -1 and 1; frame i is the sum of values[i, j] shapes[j]
@@ -31,7 +31,7 @@ def principal_shapes(film: np.ndarray, *, tolerance: float, most: int) -> Princi
     tolerance : float
         Largest distance of a vertex from the film.
     most : int
-        Largest number of shapes, also if the tolerance needs more.
+        Largest number of shapes, even if the tolerance needs more.
     """
     rows = film.reshape(len(film), -1)
     # the Gram matrix is small: a film has fewer frames than a mesh has vertices

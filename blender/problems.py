@@ -1,4 +1,4 @@
-"""From arrays of a mesh to models. Nothing here uses bpy, so it runs in any thread."""
+"""Models from the arrays of a mesh. Nothing here uses bpy, so any thread may run it."""
 
 from __future__ import annotations
 
@@ -54,8 +54,8 @@ def posing_growths(
     """Better and better models of handles; ValueError for fewer than two handles."""
     if len(handles) < 2:
         raise ValueError(
-            f"the mesh has {len(handles)} vertex groups with vertices of a weight of one half or "
-            "more; at least two are needed, and the first one stays at rest"
+            f"the mesh has {len(handles)} vertex groups with vertices that have a weight of one "
+            "half or more; at least two are needed, and the first one stays at rest"
         )
     on_surface = ss.Handles(list(handles.values()), names=list(handles))
     inside = ss.handles_in_tets(on_surface, solid.mesh, solid.surface)
@@ -82,7 +82,7 @@ def blending_growths(
 def weights_of(values: Mapping[str, float]) -> np.ndarray:
     """Weights of the rest shape and the poses for the values of shape keys.
 
-    Values below zero count as zero. Values whose sum is over one are divided by it.
+    Values below zero count as zero. If the sum of the values is above one, they are divided by it.
     """
     given = np.maximum(list(values.values()), 0.0)
     given = given / max(given.sum(), 1.0)

@@ -10,7 +10,7 @@ _PATH_OPTIONS = {"ANIMATABLE"} | _RELATIVE
 
 
 class SnapspaceSettings(bpy.types.PropertyGroup):
-    """How a model is made, where it is, and whether it is solved live."""
+    """How a model is made, where it is stored, and whether it is solved live."""
 
     translation: bpy.props.FloatProperty(
         name="Motion",
@@ -30,7 +30,7 @@ class SnapspaceSettings(bpy.types.PropertyGroup):
     )
     error: bpy.props.FloatProperty(
         name="Error",
-        description="Error of unseen motions or blends at which the search ends, in percent",
+        description="The search ends at this error on unseen motions or blends, in percent",
         default=0.5,
         min=0.01,
         max=100.0,

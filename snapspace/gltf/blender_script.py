@@ -19,12 +19,12 @@ _SCRIPT = '''"""Shape keys made by Snapspace. Run it in Blender 4.2 or later:
 
 open it in the text editor and press Alt+P, or give it to `blender --python`.
 
-If the active object is the mesh that the model was made from, it gets the shape keys, and keeps its
-faces, UVs and materials; otherwise the only such mesh of the scene without shape keys. It stands in
-the scene as it was, or was moved and scaled; or it was turned, with its vertices as they were in
-its file, or turned by right angles. Vertices are found by their places.
-If there is none, a new object is made, without UVs. A shape is the sum of the keys; values from -1
-to 1 are those of the training samples. Run again, the script replaces its keys.
+The shape keys are added to the mesh that the model was made from, which keeps its faces, UVs and
+materials. This is the active object, or else the only such mesh of the scene without shape keys. It
+may have been moved and scaled. It may also have been rotated if its vertex coordinates are those of
+its file, up to rotations by right angles. Vertices are matched by their positions.
+If there is no such mesh, a new object is made, without UVs. A shape is the sum of the keys; the
+training samples have values from -1 to 1. If the script is run again, it replaces its keys.
 """
 
 import base64
@@ -37,11 +37,11 @@ from mathutils import Euler
 from mathutils.kdtree import KDTree
 
 NAME = {name!r}
-#: Axis that points up.
+#: The axis that points up.
 UP = {up!r}
-#: What turns it to Blender's z.
+#: Euler angles that rotate this axis to Blender's z.
 UPRIGHT = {{"x": (0, -np.pi / 2, 0), "y": (np.pi / 2, 0, 0), "z": (0, 0, 0)}}[UP]
-#: Vertices that are nearer than this share of the diagonal are in the same place.
+#: Vertices that are closer than this share of the diagonal are the same.
 CLOSE = 1e-4
 
 
@@ -49,13 +49,13 @@ def array(text, kind, *shape):
     return np.frombuffer(zlib.decompress(base64.b85decode(text)), kind).reshape(*shape)
 
 
-#: Vertices at rest, displacements of them, and the corners of the faces.
+#: Vertices at rest, their displacements, and the corners of the faces.
 REST = array({rest!r}, "<f4", -1, 3)
 KEYS = {keys!r}
 MOVES = array({moves!r}, "<f4", len(KEYS), len(REST), 3)
 CORNERS = array({corners!r}, "<i4", -1)
 STARTS = array({starts!r}, "<i4", -1)
-#: All turns by right angles, with none as the first.
+#: All rotations by right angles; the identity is the first.
 SIGNED = [
     np.eye(3)[list(order)] * np.array(signs)[:, None]
     for order in itertools.permutations(range(3))
@@ -111,7 +111,7 @@ def nearest(places):
 
 
 def moves_for(one):
-    """What takes moves to those of the object, and whose move each vertex makes, or None."""
+    """The matrix of moves to the object's frame, and the number of each vertex in REST, or None."""
     if one is None or one.type != "MESH" or len(one.data.vertices) < 2:
         return None
     points = points_of(one)
@@ -162,7 +162,7 @@ def write_blender(
     name: str | None = None,
     up: str | None = None,
 ) -> Path:
-    """Writes a script that makes a mesh with shape keys in Blender; it needs no extension.
+    """Writes a script that makes a mesh with shape keys in Blender. The script needs no extension.
 
     Parameters
     ----------
