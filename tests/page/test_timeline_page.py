@@ -99,7 +99,7 @@ def test_keys_are_moved_held_and_removed(posing_page: Path, opened: OpenPage) ->
     assert page.run(focused) == 1, "the focus goes to the key that took the place"
 
     for wrong, words in (
-        ("{", "no JSON"),
+        ("{", "not JSON"),
         ({**content, "kind": "interpolation"}, "of kind interpolation"),
         ({**content, "keys": [{"time": 0, "handles": {"tail": head}}]}, "'tail'"),
         ({**content, "keys": keys[::-1]}, "no time after"),

@@ -42,10 +42,10 @@ export function continuedTimeline<State>(
 
 /** The timeline of parsed JSON; throws an Error with a text for the user. */
 export function timelineOf<State>(given: unknown, states: States<State>): Timeline<State> {
-  if (typeof given !== "object" || given === null) throw new Error("This file is no timeline.");
+  if (typeof given !== "object" || given === null) throw new Error("This file is not a timeline.");
   const content = given as Record<string, unknown>;
   if (content["format"] !== FORMAT || content["version"] !== VERSION)
-    throw new Error("This file is no timeline of this version of Snapspace.");
+    throw new Error("This file is not a timeline of this version of Snapspace.");
   if (content["kind"] !== states.kind)
     throw new Error(`The timeline is of kind ${String(content["kind"])}, but the model of ${states.kind}.`);
   const entries = content["keys"];
@@ -69,6 +69,6 @@ function parsed(text: string): unknown {
   try {
     return JSON.parse(text);
   } catch {
-    throw new Error("This file is no JSON.");
+    throw new Error("This file is not JSON.");
   }
 }
