@@ -89,7 +89,7 @@ def test_stresses_of_some_tets_are_those_of_all(kind: str) -> None:
 @pytest.mark.parametrize("which", [[TETS], [-1], [3, 3]])
 def test_stresses_of_a_tet_that_is_not_there_or_twice(which: list[int]) -> None:
     one = problem("stable-neo-hookean")
-    with pytest.raises(ValueError, match="a tet is not in the mesh|a tet occurs twice"):
+    with pytest.raises(ValueError, match=r"a tet is not in the mesh|a tet occurs twice"):
         one.system.some_tet_stresses(0.0 * one.base, WEIGHTS, np.array(which, np.int32))
 
 
