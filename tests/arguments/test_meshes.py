@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pytest
 
 import snapspace as ss
 
-from .refused import Call, check_refused
+from .refused import Call, refusals
 
 
 def surface(snapshots: Any) -> ss.EmbeddedSurface:
@@ -223,15 +221,4 @@ WRONG: dict[str, tuple[Call, str]] = {
 }
 
 
-@pytest.mark.parametrize(("call", "message"), WRONG.values(), ids=WRONG)
-def test_a_wrong_argument_is_refused_in_one_line(
-    posing_model: ss.PosingModel,
-    posing_snapshots: ss.Snapshots,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    call: Call,
-    message: str,
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    check_refused(lambda: call(posing_model, posing_snapshots), message)
-    assert not list(tmp_path.iterdir())
+test_a_wrong_argument_is_refused_in_one_line = refusals(WRONG)

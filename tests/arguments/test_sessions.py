@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import pytest
 
 import snapspace as ss
 
-from .refused import Call, check_refused
+from .refused import Call, check_refused, refusals
 
 REST = ((0, 0, 0), (0, 0, 0))
 
@@ -193,11 +192,7 @@ def other_samples(snapshots: ss.Snapshots) -> ss.Snapshots:
     return ss.solve_snapshots(problem, parameters)
 
 
-@pytest.mark.parametrize(("call", "message"), WRONG.values(), ids=WRONG)
-def test_a_wrong_argument_is_refused_in_one_line(
-    posing_model: ss.PosingModel, posing_snapshots: ss.Snapshots, call: Call, message: str
-) -> None:
-    check_refused(lambda: call(posing_model, posing_snapshots), message)
+test_a_wrong_argument_is_refused_in_one_line = refusals(WRONG)
 
 
 def test_keys_and_weights_of_blends(blending_model: ss.InterpolationModel) -> None:

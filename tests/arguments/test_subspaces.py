@@ -6,11 +6,10 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import pytest
 
 import snapspace as ss
 
-from .refused import Call, check_refused
+from .refused import Call, check_refused, refusals
 
 PLANE = ss.MirrorPlane((0, 1, 0))
 
@@ -182,11 +181,7 @@ WRONG: dict[str, tuple[Call, str]] = {
 }
 
 
-@pytest.mark.parametrize(("call", "message"), WRONG.values(), ids=WRONG)
-def test_a_wrong_argument_is_refused_in_one_line(
-    posing_model: ss.PosingModel, posing_snapshots: ss.Snapshots, call: Call, message: str
-) -> None:
-    check_refused(lambda: call(posing_model, posing_snapshots), message)
+test_a_wrong_argument_is_refused_in_one_line = refusals(WRONG)
 
 
 def test_blends_have_no_windows(blending_model: ss.InterpolationModel) -> None:
