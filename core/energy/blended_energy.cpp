@@ -1,13 +1,10 @@
 #include "energy/blended_energy.h"
 
 #include <algorithm>
-#include <optional>
 #include <type_traits>
-#include <utility>
 
 #include "energy/shell_poses.h"
 #include "material/pose_blend.h"
-#include "threads/parallel.h"
 
 namespace snapspace {
 
@@ -40,14 +37,12 @@ BlendedEnergy::BlendedEnergy(const double* poses, int count, int vertex_count,
       shell ? shell_pose_materials(poses, count, vertex_count, tets, tet_count, material)
             : std::vector<MaterialField>(count, material);
   const std::size_t size = 3 * static_cast<std::size_t>(vertex_count);
-  std::vector<std::optional<ElasticEnergy>> energies(count);
-  offsets_.assign(count, std::vector<double>(poses, poses + size));
-  parallel_for(count, 0, [&](int k) {
+  for (int k = 0; k < count; ++k) {
     const double* pose = poses + k * size;
-    energies[k].emplace(RestShape(pose, vertex_count, tets, tet_count, shell), materials[k]);
-    for (std::size_t i = 0; i < size; ++i) offsets_[k][i] -= pose[i];
-  });
-  for (std::optional<ElasticEnergy>& energy : energies) energies_.push_back(std::move(*energy));
+    energies_.emplace_back(RestShape(pose, vertex_count, tets, tet_count, shell), materials[k]);
+    std::vector<double>& offset = offsets_.emplace_back(poses, poses + size);
+    for (std::size_t i = 0; i < size; ++i) offset[i] -= pose[i];
+  }
   if (energies_[0].stars) {
     std::vector<const VertexStars*> stars;
     for (const ElasticEnergy& energy : energies_) stars.push_back(&*energy.stars);
@@ -56,12 +51,9 @@ BlendedEnergy::BlendedEnergy(const double* poses, int count, int vertex_count,
   }
   const int numbers = numbers_of(kind());
   numbers_.resize(static_cast<std::size_t>(tet_count) * count * numbers);
-  constexpr int kPiece = 4096;
-  parallel_for((tet_count + kPiece - 1) / kPiece, 0, [&](int piece) {
-    for (int t = piece * kPiece; t < std::min((piece + 1) * kPiece, tet_count); ++t)
-      for (int k = 0; k < count; ++k)
-        fill_numbers(t, k, &numbers_[(static_cast<std::size_t>(t) * count + k) * numbers]);
-  });
+  double* next = numbers_.data();
+  for (int t = 0; t < tet_count; ++t)
+    for (int k = 0; k < count; ++k, next += numbers) fill_numbers(t, k, next);
 }
 
 /// F A_k = F + F G with the displacement gradient G of pose 0 relative to pose k, so that A_k = I +

@@ -205,26 +205,20 @@ class BlendingStates:
     def stresses(self, state: int, displacement: FloatArray) -> FloatArray:
         """See `ElasticStates`."""
         every = np.arange(len(self.problem.mesh.elements), dtype=np.int32)
-        return self._of_tets(state, displacement, every)[0]
+        shape = self.subspace.tau - self.problem.base + displacement
+        stresses: FloatArray
+        stresses, _ = self.problem.system.some_tet_stresses(shape, self.weights[state], every)
+        return stresses
 
     def evaluated(self, first: int, displacements: FloatArray, tets: IntArray) -> GroupForces:
         """See `ElasticStates`."""
-        shapes, own = self._shift + displacements, slice(first, first + len(displacements))
-        energies, gradients = self.problem.system.evaluate(shapes, self.weights[own], threads=1)
-        single = [self._of_tets(first + k, u, tets) for k, u in enumerate(displacements)]
+        system, weights = self.problem.system, self.weights[first : first + len(displacements)]
+        shapes = self.subspace.tau - self.problem.base + displacements
+        energies, gradients = system.evaluate(shapes, weights, threads=1)
+        pairs = zip(shapes, weights, strict=True)
+        single = [system.some_tet_stresses(shape, w, tets) for shape, w in pairs]
         stresses, tet_energies = (np.array(part) for part in zip(*single, strict=True))
         return GroupForces(energies, gradients, stresses, tet_energies)
-
-    @property
-    def _shift(self) -> FloatArray:
-        return self.subspace.tau - self.problem.base
-
-    def _of_tets(
-        self, state: int, displacement: FloatArray, tets: IntArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Stresses (c, 9) and energies (c,) of some tets."""
-        system, shape = self.problem.system, self._shift + displacement
-        return system.some_tet_stresses(shape, self.weights[state], tets)
 
     def sum_over(self, tets: IntArray, volumes: FloatArray) -> BlendedSum:
         """See `ElasticStates`."""
