@@ -39,6 +39,8 @@ export class PosingSession {
   #maps: readonly RigidMap[] = [];
   /** Motions relative to the first handle. */
   #relative: readonly Motion[] = [];
+  /** Their offsets, see `offsetsOf`. */
+  #offsets: readonly number[] = [];
   #outside: { handle: number; how: string }[] | null = null;
 
   static async create(module: WebAssembly.Module, model: PosingModel): Promise<PosingSession> {
@@ -92,11 +94,9 @@ export class PosingSession {
    * After a jump to motions that are nearer to rest than to the last ones, the solve starts at rest: from a far shape
    * it could take hundreds of iterations. */
   moveAll(motions: ReadonlyMap<number, Motion>): FrameReport {
-    const [before, last] = [this.#maps, offsetsOf(this.#relative)];
+    const [before, last] = [this.#maps, this.#offsets];
     this.#set(this.#mapsOf(motions));
-    const offsets = offsetsOf(this.#relative);
-    if (this.#distance(offsets, last) > this.#distance(offsets, []))
-      this.#core.q = new Float64Array(this.dimension);
+    if (this.#distance(last) > this.#distance([])) this.#core.q = new Float64Array(this.dimension);
     const report = this.solve();
     if (report.status === "not_finite") this.#set(before); // such motions are never nearer to rest
     return report;
@@ -172,13 +172,14 @@ export class PosingSession {
 
   /** Solves for pulled points beside the present handles. */
   solvePulled(pulls: Pulls): FrameReport {
-    return pulls.solve(offsetsOf(this.#relative), this.carriedBy);
+    return pulls.solve(this.#offsets, this.carriedBy);
   }
 
-  /** Distance between offsets of all handles, from rest for []; turns count with the body's size. */
-  #distance(offsets: readonly number[], from: readonly number[]): number {
-    const { diagonal } = this.model;
-    return Math.hypot(...offsets.map((x, i) => (x - (from[i] ?? 0)) * (i % 4 === 3 ? 1 : diagonal)));
+  /** Distance of the present offsets of all handles from others, or from rest for []. A turn counts with the body's
+   * size. */
+  #distance(from: readonly number[]): number {
+    const unit = (i: number) => (i % 4 === 3 ? 1 : this.model.diagonal);
+    return Math.hypot(...this.#offsets.map((x, i) => unit(i) * (x - (from[i] ?? 0))));
   }
 
   #mapsOf(motions: ReadonlyMap<number, Motion>): readonly RigidMap[] {
@@ -198,8 +199,9 @@ export class PosingSession {
         ? this.#relative[handle]
         : relativeMotion(maps[0], map, this.model.handles[handle].center),
     );
-    this.#core.setOffsets(offsetsOf(relative)); // throws for numbers that are not finite
-    [this.#maps, this.#relative] = [maps, relative];
+    const offsets = offsetsOf(relative);
+    this.#core.setOffsets(offsets); // throws for numbers that are not finite
+    [this.#maps, this.#relative, this.#offsets] = [maps, relative, offsets];
     this.#outside = null;
   }
 }
@@ -207,20 +209,9 @@ export class PosingSession {
 /** Offsets [R - I | t] of all handles, by their motions seen from the first. */
 function offsetsOf(relative: readonly Motion[]): number[] {
   return relative
-    .flatMap(({ rotation: R, translation: t }) => [
-      R[0] - 1,
-      R[1],
-      R[2],
-      t[0],
-      R[3],
-      R[4] - 1,
-      R[5],
-      t[1],
-      R[6],
-      R[7],
-      R[8] - 1,
-      t[2],
-    ])
+    .flatMap(({ rotation, translation }) =>
+      translation.flatMap((t, r) => [...[0, 1, 2].map((c) => rotation[3 * r + c] - Number(r === c)), t]),
+    )
     .fill(0, 0, 12); // exactly
 }
 
