@@ -414,6 +414,11 @@ class InterpolationSystem(SampleSystem):
         Hessian (m, 9, 9) of each tet's energy with respect to its displacement gradient relative to pose 0.
         """
 
+    def scalar_hessians(self, u: NDArray[numpy.float64], weights: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        """
+        The matrix (m, 3, 3) that replaces it for each row of the displacement gradient in the scalar factor.
+        """
+
 class SoftModes:
     """
     Soft modes of a posing system for the seed of L-BFGS: the lowest generalised eigenvectors of its Hessian at rest with respect to the scalar matrix. The scalar factor mistakes these deformations for stiff ones.

@@ -17,6 +17,23 @@ void check_blend(const InterpolationSystem& system, const VectorIn& u, const Vec
           "needs a (3n,) vector and (input_size,) weights");
 }
 
+/// Matrices (m, size, size) of all tets at u, which fill(tet, u, matrix) makes in the system's
+/// numbering.
+template <int size, class Fill>
+DoublesOut of_tets(const InterpolationSystem& system, const VectorIn& u, Fill fill) {
+  const auto tets = static_cast<std::size_t>(system.energy->tets());
+  DoublesOut result = new_array<double>({tets, size, size});
+  std::vector<double> shape(u.size());
+  system.numbering.to_internal(u.data(), shape.data());
+  for (std::size_t t = 0; t < tets; ++t) {
+    double matrix[size][size];
+    fill(static_cast<int>(t), shape.data(), matrix);
+    std::copy_n(&matrix[0][0], size * size,
+                result.data() + size * size * static_cast<std::size_t>(system.tet_order[t]));
+  }
+  return result;
+}
+
 LocalMesh local_mesh(const double* vertices, std::size_t count, const IndexMatrixIn& tets) {
   require(tets.shape(1) == 4, "tets must be (m, 4)");
   const auto n = static_cast<std::int32_t>(count);
@@ -123,21 +140,25 @@ void bind_systems(nb::module_& m) {
       [](const InterpolationSystem& self, VectorIn u, VectorIn weights) {
         check_blend(self, u, weights);
         require(self.energy->has_tet_hessians(), "the density has no Hessians of blends");
-        const auto tets = static_cast<std::size_t>(self.energy->tets());
-        DoublesOut result = new_array<double>({tets, 9, 9});
-        std::vector<double> shape(u.size());
-        self.numbering.to_internal(u.data(), shape.data());
-        for (std::size_t t = 0; t < tets; ++t) {
-          double H[9][9];
-          self.energy->tet_hessian(static_cast<int>(t), weights.data(), shape.data(), H);
-          std::copy_n(&H[0][0], 81,
-                      result.data() + 81 * static_cast<std::size_t>(self.tet_order[t]));
-        }
-        return result;
+        return of_tets<9>(self, u, [&](int t, const double* shape, double (&H)[9][9]) {
+          self.energy->tet_hessian(t, weights.data(), shape, H);
+        });
       },
       nb::arg("u"), nb::arg("weights"),
       "Hessian (m, 9, 9) of each tet's energy with respect to its displacement gradient relative "
       "to pose 0.");
+  interpolation.def(
+      "scalar_hessians",
+      [](const InterpolationSystem& self, VectorIn u, VectorIn weights) {
+        check_blend(self, u, weights);
+        require(self.energy->has_scalar_hessians(), "the density has no scalar Hessians of blends");
+        return of_tets<3>(self, u, [&](int t, const double* shape, double (&D)[3][3]) {
+          self.energy->scalar_hessian(t, weights.data(), shape, D);
+        });
+      },
+      nb::arg("u"), nb::arg("weights"),
+      "The matrix (m, 3, 3) that replaces it for each row of the displacement gradient in the "
+      "scalar factor.");
 }
 
 }  // namespace snapspace

@@ -26,6 +26,8 @@ bool collapses(int kind) {
 
 template <class Density>
 constexpr bool kHasTetHessian = requires { &Density::Blend::hessian; };
+template <class Density>
+constexpr bool kHasScalarHessian = requires { &Density::Blend::scalar_hessian; };
 
 }  // namespace
 
@@ -193,8 +195,9 @@ bool BlendedEnergy::has_tet_hessians() const {
   return Densities::with(kind(), []<class Density>() { return kHasTetHessian<Density>; });
 }
 
-void BlendedEnergy::tet_hessian(int tet, const double* weights, const double* u,
-                                double H[9][9]) const {
+template <class Evaluate>
+void BlendedEnergy::with_blend(int tet, const double* weights, const double* u,
+                               Evaluate evaluate) const {
   double G[3][3];
   displacement_gradient(energies_[0].rest.tets[tet], u, G);
   Densities::with(kind(), [&]<class Density>() {
@@ -204,8 +207,26 @@ void BlendedEnergy::tet_hessian(int tet, const double* weights, const double* u,
       double sums[kNumbers] = {};
       for (int k = 0; k < poses(); ++k, pose += kNumbers)
         for (int i = 0; i < kNumbers; ++i) sums[i] += weights[k] * pose[i];
-      Density::Blend::hessian(sums, G, H);
+      evaluate(typename Density::Blend(), sums, G);
     }
+  });
+}
+
+void BlendedEnergy::tet_hessian(int tet, const double* weights, const double* u,
+                                double H[9][9]) const {
+  with_blend(tet, weights, u, [&]<class Blend>(Blend, const double* sums, const double G[3][3]) {
+    Blend::hessian(sums, G, H);
+  });
+}
+
+bool BlendedEnergy::has_scalar_hessians() const {
+  return Densities::with(kind(), []<class Density>() { return kHasScalarHessian<Density>; });
+}
+
+void BlendedEnergy::scalar_hessian(int tet, const double* weights, const double* u,
+                                   double D[3][3]) const {
+  with_blend(tet, weights, u, [&]<class Blend>(Blend, const double* sums, const double G[3][3]) {
+    if constexpr (requires { &Blend::scalar_hessian; }) Blend::scalar_hessian(sums, G, D);
   });
 }
 

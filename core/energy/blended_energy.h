@@ -58,6 +58,12 @@ class BlendedEnergy {
   /// The Hessian (9 x 9) of a tet's energy with respect to its displacement gradient relative to
   /// pose 0, at u for these weights; only if has_tet_hessians().
   void tet_hessian(int tet, const double* weights, const double* u, double H[9][9]) const;
+  /// Whether a scalar matrix can be made of sums over the poses, see scalar_hessian.
+  [[nodiscard]] bool has_scalar_hessians() const;
+  /// What replaces that Hessian for each row of the displacement gradient: a semi-definite matrix D
+  /// (3 x 3) that does not change if u rotates. With hat gradients b, b_j^T D b_k replaces the
+  /// block of vertices j and k; only if has_scalar_hessians().
+  void scalar_hessian(int tet, const double* weights, const double* u, double D[3][3]) const;
 
  private:
   /// Up to this many poses, the numbers of a tet are summed in every evaluation: the samples of a
@@ -70,6 +76,9 @@ class BlendedEnergy {
   void fill_numbers(int tet, int pose, double* result) const;
   /// The numbers of a tet, summed over the poses with these weights.
   void sum_numbers(int tet, const double* weights, std::vector<double>& sums) const;
+  /// Calls evaluate(Blend, sums of the numbers, G) for a density that has Hessians of single tets.
+  template <class Evaluate>
+  void with_blend(int tet, const double* weights, const double* u, Evaluate evaluate) const;
   template <class Real>
   [[nodiscard]] Sum<Real> add_stars(const Real* blend, const Real* u, Real* gradient, int begin,
                                     int end) const;

@@ -8,12 +8,29 @@
 
 namespace snapspace {
 
-void ScalarHessian::add(const ElasticEnergy& energy, const double* u, double weight) {
+template <class AddTets>
+void ScalarHessian::add_pieces(AddTets add_tets) {
   constexpr int kPiece = 4096;
-  const int pieces = (energy.tets() + kPiece - 1) / kPiece;
-  parallel_for(pieces, 0, [&](int piece) {
+  const auto tets = static_cast<int>(locals_.size());
+  parallel_for((tets + kPiece - 1) / kPiece, 0, [&](int piece) {
     const int begin = piece * kPiece;
-    add_tets(energy, u, weight, begin, std::min(begin + kPiece, energy.tets()));
+    add_tets(begin, std::min(begin + kPiece, tets));
+  });
+}
+
+void ScalarHessian::add(const ElasticEnergy& energy, const double* u, double weight) {
+  add_pieces([&](int begin, int end) { add_tets(energy, u, weight, begin, end); });
+}
+
+void ScalarHessian::add(const BlendedEnergy& energy, const double* weights, const double* u,
+                        double weight) {
+  add_pieces([&](int begin, int end) {
+    for (int t = begin; t < end; ++t) {
+      double D[3][3];
+      energy.scalar_hessian(t, weights, u, D);
+      const Eigen::Matrix<double, 4, 3> b = hat_gradients(rest_.tets[t]);
+      locals_[t] += weight * b * Eigen::Map<const Eigen::Matrix3d>(&D[0][0]) * b.transpose();
+    }
   });
 }
 

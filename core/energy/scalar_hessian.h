@@ -3,7 +3,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "energy/elastic_energy.h"
+#include "energy/blended_energy.h"
 
 namespace snapspace {
 
@@ -23,10 +23,16 @@ class ScalarHessian {
   /// rest shape of the same tets.
   void add(const ElasticEnergy& energy, const double* u, double weight);
 
+  /// Adds weight times the Hessian of a sum over poses, if it has_scalar_hessians(). The rest shape
+  /// is pose 0. The cost does not depend on the number of poses, and no stretches are raised.
+  void add(const BlendedEnergy& energy, const double* weights, const double* u, double weight);
+
   /// The sum so far; singular, since it does not change under translations.
   [[nodiscard]] Eigen::SparseMatrix<double> matrix() const { return rest_.assembled(locals_); }
 
  private:
+  template <class AddTets>
+  void add_pieces(AddTets add_tets);
   void add_tets(const ElasticEnergy& energy, const double* u, double weight, int begin, int end);
 
   const RestShape& rest_;

@@ -22,7 +22,7 @@ PartTimes times_of(const PosingSystem& system, const std::vector<double>& shape,
   for (std::size_t i = 0; i < size; ++i) u[i] = Real(static_cast<typename Real::Scalar>(shape[i]));
   std::vector<Single> vector(size, Single(1.0f));
   const LaneObjectives objectives = system.lanes();
-  const auto objective = objectives.objective<Real>(1);
+  const auto objective = objectives.objective<Real>(kOneThread);
   SweepVisitor idle;
   PartTimes times;
   times.kernel_seconds = shortest_time(

@@ -51,7 +51,7 @@ class WatchedObjective final : public LaneObjective<Real> {
 LaneObjectives watched(LaneObjectives objectives, LowestShape& lowest) {
   std::vector<float> masses = objectives.masses();
   return {std::move(masses),
-          [objectives = std::move(objectives), &lowest]<class Real>(int threads) {
+          [objectives = std::move(objectives), &lowest]<class Real>(const ThreadShare& threads) {
             return std::make_unique<WatchedObjective<Real>>(objectives.objective<Real>(threads),
                                                             lowest);
           }};

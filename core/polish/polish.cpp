@@ -8,6 +8,7 @@
 #include "snapshots/run_lanes.h"
 #include "snapshots/solve.h"
 #include "threads/flush_denormals.h"
+#include "threads/parallel.h"
 
 namespace snapspace {
 
@@ -42,7 +43,7 @@ Solution polish(const SampleSystem& system, const CoarseSpace* coarse, const Sam
   LowestShape lowest;
   // Both inverses have the right scale, so the seed is not scaled.
   run_lanes(kLongMemory, watched(seeded(system, {.coarse = coarse}), lowest), 2, options,
-            options.threads, exchange, control);
+            ThreadShare(thread_count(options.threads), 1), exchange, control);
 
   Solution result{sample.id, {}, sample.start};
   std::vector<double> internal = std::move(lowest.shape);

@@ -23,7 +23,7 @@ class Evaluation {
 
   explicit Evaluation(const SampleSystem& system, const LaneObjectives& objectives)
       : system_(system),
-        objective_(objectives.objective<Real>(1)),
+        objective_(objectives.objective<Real>(kOneThread)),
         shapes_(system.size(), Real(0)),
         gradients_(system.size(), Real(0)),
         one_(system.size()) {}
@@ -100,8 +100,7 @@ void evaluate(const SampleSystem& system, int count, const double* inputs, const
   constexpr int kWidth = Wide::kWidth;
   const LaneObjectives objectives = system.lanes();
   const int packs = (count + kWidth - 1) / kWidth, size = system.size();
-  const int workers = std::clamp(
-      threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()), 1, packs);
+  const int workers = std::clamp(thread_count(threads), 1, packs);
   std::atomic<int> next{0};
   parallel_for(workers, workers, [&](int) {
     const FlushDenormals flush;

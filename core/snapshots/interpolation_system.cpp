@@ -48,6 +48,18 @@ Eigen::SparseMatrix<double> shell_matrix(const BlendedEnergy& energy,
   return A;
 }
 
+/// Adds `factor` times the Hessian at a shape u for its weights.
+void add_shape(const BlendedEnergy& energy, const double* u, const double* weights, double factor,
+               ScalarHessian& hessian) {
+  if (energy.has_scalar_hessians()) return hessian.add(energy, weights, u, factor);
+  std::vector<double> shifted(energy.size());
+  for (int k = 0; k < energy.poses(); ++k) {
+    if (weights[k] == 0.0) continue;
+    for (int i = 0; i < energy.size(); ++i) shifted[i] = u[i] + energy.offset(k)[i];
+    hessian.add(energy.energy(k), shifted.data(), factor * weights[k]);
+  }
+}
+
 Eigen::SparseMatrix<double> scalar_matrix(const BlendedEnergy& energy,
                                           const std::vector<double>& shapes,
                                           const std::vector<double>& weights) {
@@ -57,17 +69,9 @@ Eigen::SparseMatrix<double> scalar_matrix(const BlendedEnergy& energy,
     return A;
   }
   ScalarHessian hessian(energy.energy(0).rest);
-  const int size = energy.size();
-  std::vector<double> shifted(size);
-  const auto count = static_cast<double>(shapes.size() / size);
-  for (std::size_t shape = 0; shape < shapes.size() / size; ++shape)
-    for (int k = 0; k < energy.poses(); ++k) {
-      const double weight = weights[shape * energy.poses() + k];
-      if (weight == 0.0) continue;
-      const double* u = shapes.data() + shape * size;
-      for (int i = 0; i < size; ++i) shifted[i] = u[i] + energy.offset(k)[i];
-      hessian.add(energy.energy(k), shifted.data(), weight / count);
-    }
+  const std::size_t size = energy.size(), poses = energy.poses(), count = shapes.size() / size;
+  for (std::size_t shape = 0; shape < count; ++shape)
+    add_shape(energy, &shapes[shape * size], &weights[shape * poses], 1.0 / count, hessian);
   Eigen::SparseMatrix<double> A = hessian.matrix();
   A.coeffRef(0, 0) *= 2.0;
   return A;
@@ -79,8 +83,8 @@ class InterpolationObjective final : public LaneObjective<Real> {
  public:
   using Single = typename LaneObjective<Real>::Single;
 
-  /// @param threads  number that the objective may use
-  InterpolationObjective(const InterpolationSystem& system, int threads)
+  /// @param threads  those that the objective may use, now and later
+  InterpolationObjective(const InterpolationSystem& system, const ThreadShare& threads)
       : system_(system),
         threads_(threads),
         blend_(system.energy->blend_size(), Real(0.0)),
@@ -102,7 +106,7 @@ class InterpolationObjective final : public LaneObjective<Real> {
     visitor.before(0, size() / 3);
     const int tets = system_.energy->tets();
     Sum<Real> values[2];
-    parallel_for(2, threads_, [&](int half) {
+    parallel_for(2, threads_.each(), [&](int half) {
       const FlushDenormals flush;  // as on the caller's thread
       values[half] = system_.energy->value_and_gradient(
           blend_.data(), u, half == 0 ? gradient : second_half_.data(), half == 0 ? 0 : tets / 2,
@@ -119,7 +123,7 @@ class InterpolationObjective final : public LaneObjective<Real> {
 
  private:
   const InterpolationSystem& system_;
-  int threads_;
+  const ThreadShare& threads_;
   std::vector<Real> blend_;
   std::vector<Real> second_half_;  // second half of the gradient
   Scratch scratch_;
@@ -191,13 +195,13 @@ void InterpolationSystem::add_to(PatchHessian& hessian, const double* weights,
 }
 
 LaneObjectives InterpolationSystem::lanes() const {
-  return {energy->energy(0).rest.lumped_shares(), [this]<class Real>(int threads) {
+  return {energy->energy(0).rest.lumped_shares(), [this]<class Real>(const ThreadShare& threads) {
             return std::make_unique<InterpolationObjective<Real>>(*this, threads);
           }};
 }
 
 std::unique_ptr<LaneObjective<double>> InterpolationSystem::objective() const {
-  return std::make_unique<InterpolationObjective<double>>(*this, 1);
+  return std::make_unique<InterpolationObjective<double>>(*this, kOneThread);
 }
 
 void InterpolationSystem::assemble(const double* weights, const double* u,

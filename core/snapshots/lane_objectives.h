@@ -7,6 +7,7 @@
 
 #include "simd/packs.h"
 #include "snapshots/lane_objective.h"
+#include "threads/thread_share.h"
 
 namespace snapspace {
 
@@ -15,11 +16,11 @@ namespace snapspace {
 class LaneObjectives {
  public:
   template <class Real>
-  using Maker = std::function<std::unique_ptr<LaneObjective<Real>>(int threads)>;
+  using Maker = std::function<std::unique_ptr<LaneObjective<Real>>(const ThreadShare& threads)>;
 
   /// @param masses  of the vertices, for comparing lengths of displacements
   /// @param make    make.template operator()<Real>(threads) is a new LaneObjective<Real> that may
-  ///                use this many threads
+  ///                use these threads, which it refers to
   template <class Make>
   LaneObjectives(std::vector<float> masses, const Make& make)
       : masses_(std::move(masses)), makers_(makers(make, LanePacks())) {}
@@ -27,7 +28,7 @@ class LaneObjectives {
   [[nodiscard]] const std::vector<float>& masses() const { return masses_; }
 
   template <class Real>
-  [[nodiscard]] std::unique_ptr<LaneObjective<Real>> objective(int threads) const {
+  [[nodiscard]] std::unique_ptr<LaneObjective<Real>> objective(const ThreadShare& threads) const {
     return std::get<Maker<Real>>(makers_)(threads);
   }
 
@@ -38,7 +39,7 @@ class LaneObjectives {
 
   template <class Make, class... Real>
   static Makers makers(const Make& make, PackList<Real...>) {
-    return {[make](int threads) -> std::unique_ptr<LaneObjective<Real>> {
+    return {[make](const ThreadShare& threads) -> std::unique_ptr<LaneObjective<Real>> {
       return make.template operator()<Real>(threads);
     }...};
   }

@@ -33,8 +33,9 @@ class LaneLbfgs {
  public:
   static constexpr int kWidth = Real::kWidth;
 
-  /// @param threads  number that the objective may use
-  LaneLbfgs(const LaneObjectives& objectives, const SolveOptions& options, int threads)
+  /// @param threads  those that the objective may use
+  LaneLbfgs(const LaneObjectives& objectives, const SolveOptions& options,
+            const ThreadShare& threads)
       : objectives_(objectives),
         options_(options),
         threads_(threads),
@@ -282,7 +283,7 @@ class LaneLbfgs {
 
   const LaneObjectives& objectives_;
   SolveOptions options_;
-  int threads_;
+  const ThreadShare& threads_;
   std::unique_ptr<LaneObjective<Real>> objective_;
   int size_;
   Vectors vectors_;

@@ -152,7 +152,7 @@ LaneObjectives on_patches(const SampleSystem& system) {
   LaneObjectives objectives = system.lanes();
   std::vector<float> masses = objectives.masses();
   return {std::move(masses),
-          [objectives = std::move(objectives), &system]<class Real>(int threads) {
+          [objectives = std::move(objectives), &system]<class Real>(const ThreadShare& threads) {
             return std::make_unique<PatchedObjective<Real>>(system,
                                                             objectives.objective<Real>(threads));
           }};

@@ -116,7 +116,7 @@ PosingSystem::PosingSystem(const LocalMesh& mesh, ElasticEnergy elastic,
 }
 
 LaneObjectives PosingSystem::lanes() const {
-  return {energy.rest.lumped_shares(), [this]<class Real>(int /*threads*/) {
+  return {energy.rest.lumped_shares(), [this]<class Real>(const ThreadShare&) {
             return std::make_unique<PosingObjective<Real>>(*this);
           }};
 }

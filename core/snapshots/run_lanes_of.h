@@ -8,7 +8,7 @@ namespace snapspace {
 
 template <LbfgsMemory memory, class Scalar>
 void run_packs(const LaneObjectives& objectives, int width, const SolveOptions& options,
-               int threads, SampleExchange& exchange, const SolveControl& control) {
+               const ThreadShare& threads, SampleExchange& exchange, const SolveControl& control) {
   constexpr int kWidest = kWideLanes * static_cast<int>(sizeof(double) / sizeof(Scalar));
   const auto run = [&]<int Width>() {
     LaneLbfgs<memory, Pack<Scalar, Width>>(objectives, options, threads).run(exchange, control);
@@ -24,7 +24,7 @@ void run_packs(const LaneObjectives& objectives, int width, const SolveOptions& 
 
 template <LbfgsMemory memory>
 void run_lanes(const LaneObjectives& objectives, int width, const SolveOptions& options,
-               int threads, SampleExchange& exchange, const SolveControl& control) {
+               const ThreadShare& threads, SampleExchange& exchange, const SolveControl& control) {
   if (options.single)
     run_packs<memory, float>(objectives, width, options, threads, exchange, control);
   else

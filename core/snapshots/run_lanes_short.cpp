@@ -2,7 +2,7 @@
 
 namespace snapspace {
 
-template void run_lanes<kShortMemory>(const LaneObjectives&, int, const SolveOptions&, int,
-                                      SampleExchange&, const SolveControl&);
+template void run_lanes<kShortMemory>(const LaneObjectives&, int, const SolveOptions&,
+                                      const ThreadShare&, SampleExchange&, const SolveControl&);
 
 }  // namespace snapspace

@@ -39,7 +39,8 @@ class SoftenedObjective final : public LaneObjective<Real> {
 
 LaneObjectives softened(LaneObjectives objectives, const SoftModes& modes) {
   std::vector<float> masses = objectives.masses();
-  return {std::move(masses), [objectives = std::move(objectives), &modes]<class Real>(int threads) {
+  return {std::move(masses),
+          [objectives = std::move(objectives), &modes]<class Real>(const ThreadShare& threads) {
             return std::make_unique<SoftenedObjective<Real>>(objectives.objective<Real>(threads),
                                                              modes);
           }};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <thread>
 #include <utility>
 
 #include "snapshots/newton.h"
@@ -16,10 +15,6 @@
 namespace snapspace {
 
 namespace {
-
-int thread_count(int wanted) {
-  return wanted > 0 ? wanted : std::max(1u, std::thread::hardware_concurrency());
-}
 
 /// Packs have at least two samples: alone in a pack, a sample would cost nearly as much as two.
 int pack_count(int expected, int threads) { return std::clamp((expected + 1) / 2, 1, threads); }
@@ -79,10 +74,12 @@ void solve_fast(const SampleSystem& system, const LowRankSeed& seed, SampleQueue
   // the end.
   const int width = std::min(options.lanes, (expected + packs - 1) / packs);
   queue.share(packs);
+  ThreadShare share(threads, packs);
   parallel_for(packs, packs, [&](int) {
     const FlushDenormals flush;
     QueueExchange exchange(system, queue, control);
-    run_lanes(memory, objectives, width, options, threads / packs, exchange, control);
+    run_lanes(memory, objectives, width, options, share, exchange, control);
+    share.leave();
   });
 }
 

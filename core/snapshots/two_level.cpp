@@ -73,8 +73,8 @@ class TwoLevelObjective final : public LaneObjective<Real> {
 
 LaneObjectives on_two_levels(LaneObjectives objectives, int input_size, const CoarseSpace& coarse) {
   std::vector<float> masses = objectives.masses();
-  return {std::move(masses),
-          [objectives = std::move(objectives), input_size, &coarse]<class Real>(int threads) {
+  return {std::move(masses), [objectives = std::move(objectives), input_size,
+                              &coarse]<class Real>(const ThreadShare& threads) {
             return std::make_unique<TwoLevelObjective<Real>>(objectives.objective<Real>(threads),
                                                              input_size, coarse);
           }};

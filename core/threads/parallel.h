@@ -9,14 +9,18 @@
 
 namespace snapspace {
 
+/// The wanted number of threads, or as many as the machine has if that is 0.
+inline int thread_count(int wanted) {
+  return wanted > 0 ? wanted : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
 /// Calls work(item) for every item in [0, count) on up to `threads` threads (0: as many as the
 /// machine has).
 /// Items are handed out in order to the next free thread; an item must not depend on the thread
 /// that runs it. The first exception of an item is rethrown here after all threads have ended.
 template <class Work>
 void parallel_for(int count, int threads, Work&& work) {
-  if (threads <= 0) threads = std::max(1u, std::thread::hardware_concurrency());
-  threads = std::min(threads, count);
+  threads = std::min(thread_count(threads), count);
   std::atomic<int> next{0};
   std::exception_ptr error;
   std::mutex error_mutex;
