@@ -71,7 +71,7 @@ def compared(name: str, problem: Any, count: int) -> dict[str, Any] | None:
     micros = dict(zip(models, evaluation_micros(list(models.values())), strict=True))
     ends, jumps = zip(*(jumped(model, reference) for model in models.values()), strict=True)
     errors = {
-        key: solution_errors(model, reference, end)[:, 0]
+        key: solution_errors(model, reference, end)
         for (key, model), end in zip(models.items(), ends, strict=True)
     }
     sizes = energy.stored_rows.sizes

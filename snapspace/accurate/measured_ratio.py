@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from ..reduction import InterpolationModel, PosingModel, solved_coordinates
+from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import Snapshots
-from ..validation import solution_errors
+from ..validation import projection_errors, unseen_errors
 from .plan import Plan
 
 
 def measured_ratio(model: PosingModel | InterpolationModel, unseen: Snapshots, plan: Plan) -> float:
     """Typical error of the model's solutions at unseen samples, divided by that of projections."""
-    coordinates = solved_coordinates(model, unseen.parameters)
-    errors, projections = solution_errors(model, unseen, coordinates).T
-    return plan.typical(errors) / max(plan.typical(projections), 1e-12)
+    error = plan.typical(unseen_errors(model, unseen))
+    return error / max(plan.typical(projection_errors(model, unseen)), 1e-12)

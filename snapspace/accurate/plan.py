@@ -36,6 +36,7 @@ class Plan:
     trusts_predictions : whether the held-out samples are predicted as well, and the first model is
         expected to have the ratio of the predicting model, not `first_ratio`
     held_out : number of samples that judge models
+    held_out_tolerance : their tolerance, relative to that of the others
     first_ratio : assumed ratio of errors of reduced solutions to those of projections, before it is
         measured. Too low a ratio wastes models that miss the target; too high a ratio wastes
         samples
@@ -61,6 +62,7 @@ class Plan:
     slow: float
     trusts_predictions: bool
     held_out: int
+    held_out_tolerance: float
     first_ratio: float
     most_dimensions: int
     impression: int
@@ -105,6 +107,7 @@ BLENDS = Plan(
     slow=0.0,
     trusts_predictions=True,
     held_out=12,
+    held_out_tolerance=0.1,
     first_ratio=8.0,
     most_dimensions=200,
     impression=0,
@@ -119,7 +122,9 @@ BLENDS = Plan(
 #: Blends of as-rigid-as-possible surfaces. Their energies have no cubature error, so more
 #: dimensions help, and samples are predicted. Ten Lions have errors of 0.0138 with 640 samples and
 #: 200 dimensions, 0.0101 with 400 and 256, and 0.0092 with 640 and 256.
-RIGID_BLENDS = replace(BLENDS, most_dimensions=256, predicted_vertices=2_500_000)
+RIGID_BLENDS = replace(
+    BLENDS, held_out_tolerance=0.01, most_dimensions=256, predicted_vertices=2_500_000
+)
 #: For motions the ratio is 3 to 7. The ratio of predicting models is far higher and falls with the
 #: dimension, from 72 to 45 or 98 to 29, so using it would waste samples. There may be several
 #: minima.
@@ -134,6 +139,7 @@ MOTIONS = Plan(
     slow=110.0,
     trusts_predictions=False,
     held_out=16,
+    held_out_tolerance=0.01,
     first_ratio=4.0,
     most_dimensions=320,
     impression=36,

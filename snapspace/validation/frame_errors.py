@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh import Body, TetMesh, mass_norms, tet_volumes
-from ..reduction import ReducedModel
+from ..reduction import ReducedModel, solved_coordinates
 from ..session import FrameReport
 from ..snapshots import Snapshots, check_snapshots_of
 
@@ -24,14 +24,13 @@ def unseen_errors(model: ReducedModel, reference: Snapshots) -> FloatArray:
         If the reference is of another problem.
     """
     check_snapshots_of(model.problem, reference, "unseen_errors", "reference")
-    errors: FloatArray = compared(model, reference)[0][:, 0]
-    return errors
+    return solution_errors(model, reference, solved_coordinates(model, reference.parameters))
 
 
 def compared(
     model: ReducedModel, reference: Snapshots
 ) -> tuple[FloatArray, list[tuple[FrameReport, float]], NDArray[np.int64]]:
-    """Errors (k, 2), see `solution_errors`; reports and milliseconds; inverted tets (k,)."""
+    """Errors (k,) of frames; reports and milliseconds; inverted tets (k,)."""
     session, mesh = model.session(), model.problem.mesh
     solutions, frames, inverted = [], [], []
     for w in reference.parameters:
@@ -54,16 +53,25 @@ def _inverted(mesh: Body, vertices: FloatArray) -> int:
 
 
 def solution_errors(model: ReducedModel, reference: Snapshots, solutions: FloatArray) -> FloatArray:
-    """Errors (k, 2) of reduced solutions (k, d) and of projections; one shape at a time."""
+    """Errors (k,) of reduced solutions (k, d), one shape at a time."""
     problem, subspace = model.problem, model.subspace
     rows = reference.displacements.shifted(problem.base - subspace.tau)
-    projections = subspace.row_coordinates(rows)
-    errors = np.empty((len(rows), 2))
-    for target, row, solution, projection in zip(errors, rows, solutions, projections, strict=True):
+    errors = np.empty(len(rows))
+    for k, (row, solution) in enumerate(zip(rows, solutions, strict=True)):
         full = subspace.tau + row
-        reduced = problem.aligned(subspace.shape(solution), full)
-        projected = subspace.shape(projection)
-        misses = np.stack([reduced - full, projected - full, row])
-        norms = mass_norms(subspace.mass, misses)
-        target[:] = norms[:2] / norms[2]
+        miss = problem.aligned(subspace.shape(solution), full) - full
+        error, size = mass_norms(subspace.mass, np.stack([miss, row]))
+        errors[k] = error / size
+    return errors
+
+
+def projection_errors(model: ReducedModel, reference: Snapshots) -> FloatArray:
+    """Errors (k,) of the projections of full solutions, one shape at a time."""
+    subspace = model.subspace
+    rows = reference.displacements.shifted(model.problem.base - subspace.tau)
+    errors = np.empty(len(rows))
+    for k, (row, projection) in enumerate(zip(rows, subspace.row_coordinates(rows), strict=True)):
+        miss = subspace.shape(projection) - (subspace.tau + row)
+        error, size = mass_norms(subspace.mass, np.stack([miss, row]))
+        errors[k] = error / size
     return errors

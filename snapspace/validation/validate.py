@@ -6,7 +6,7 @@ import numpy as np
 
 from ..reduction import ReducedModel, check_model
 from ..snapshots import Progress, Snapshots
-from .frame_errors import compared
+from .frame_errors import compared, projection_errors
 from .given_reference import check_reference
 from .lower_minima import with_lower_minima
 from .unseen import solved_reference
@@ -59,8 +59,8 @@ def validate(
     errors, frames, inverted = compared(model, reference)
     full_values = np.array([report.value for report in reference.reports])
     return Validation(
-        error=errors[:, 0],
-        projection_error=errors[:, 1],
+        error=errors,
+        projection_error=projection_errors(model, reference),
         energy_ratio=np.array([report.value for report, _ in frames]) / full_values,
         iterations=np.array([report.iterations for report, _ in frames]),
         solve_ms=np.array([1e3 * report.seconds for report, _ in frames]),

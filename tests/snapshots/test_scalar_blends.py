@@ -1,4 +1,4 @@
-"""The scalar factor of blends whose energies collapse: its matrix is made of sums over the poses."""
+"""The scalar factor of blends whose energies collapse, which is made of sums over the poses."""
 
 from __future__ import annotations
 
