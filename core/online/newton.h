@@ -68,12 +68,15 @@ class Newton {
         slope = dot(gradient_.data(), direction_.data(), d_);
       }
       if (!search(objective, q, report, slope, stop)) {
+        shift_ *= kShiftFactor;  // a matrix that is barely definite makes a step far too long
+        if (shift_ > 0.0) continue;
         report.status = report.evaluations >= stop.max_evaluations   ? Status::max_evaluations
                         : terminates(stop, report, 0.0, 0.0, length) ? Status::converged
                                                                      : Status::line_search_failed;
         return report;
       }
       ++report.iterations;
+      shift_ = shift_ > kFirstShift ? shift_ / kShiftFactor : 0.0;
       report.value = trial_value_;
       std::copy_n(trial_.data(), d_, q);
       gradient_.swap(trial_gradient_);
@@ -94,17 +97,17 @@ class Newton {
     return std::isfinite(report.value) && std::isfinite(report.gradient_norm);
   }
 
-  /// direction = -(H + shift metric)^-1 gradient, with a shift near the last one that makes the
-  /// matrix positive definite. Returns false if none does, because the Hessian is not finite.
+  /// direction = -(H + shift metric)^-1 gradient, with the smallest shift from the current one on
+  /// that makes the matrix positive definite. Returns false if there is none, since the Hessian is
+  /// not finite or no step was short enough.
   bool set_direction(const double* metric) {
-    shift_ = shift_ > kFirstShift ? shift_ / kShiftFactor : 0.0;
-    while (factor(metric) >= 0) {
-      shift_ = shift_ == 0.0 ? kFirstShift : kShiftFactor * shift_;
-      if (!(shift_ < kLargestShift)) return false;
+    for (; shift_ < kLargestShift; shift_ = shift_ == 0.0 ? kFirstShift : kShiftFactor * shift_) {
+      if (factor(metric) >= 0) continue;
+      for (int i = 0; i < d_; ++i) trial_[i] = -gradient_[i];
+      cholesky_.solve(trial_.data(), direction_.data());
+      return true;
     }
-    for (int i = 0; i < d_; ++i) trial_[i] = -gradient_[i];
-    cholesky_.solve(trial_.data(), direction_.data());
-    return true;
+    return false;
   }
 
   int factor(const double* metric) {
