@@ -86,12 +86,12 @@ void BlendedEnergy::set_weights(int lane, const double* weights, Real* blend) co
   }
   std::vector<double> sums(numbers_of(kind()));
   for (int t = 0; t < tets(); ++t) {
-    sum_numbers(t, weights, sums);
+    sum_numbers(t, weights, sums.data());
     for (const double sum : sums) set_lane(*blend++, lane, sum);
   }
 }
 
-void BlendedEnergy::sum_numbers(int tet, const double* weights, std::vector<double>& sums) const {
+void BlendedEnergy::sum_numbers(int tet, const double* weights, double* sums) const {
   const int numbers = numbers_of(kind()), summed = numbers - constants_of(kind());
   const double* pose = numbers_.data() + static_cast<std::size_t>(tet) * poses() * numbers;
   for (int i = 0; i < numbers; ++i) {
@@ -182,7 +182,7 @@ void BlendedEnergy::tet_stresses(const std::vector<std::int32_t>& which, const d
     for (const std::int32_t t : which) {
       double G[3][3], P[3][3];
       displacement_gradient(energies_[0].rest.tets[t], u, G);
-      if (keeps_sums()) sum_numbers(t, weights, sums);
+      if (keeps_sums()) sum_numbers(t, weights, sums.data());
       const double* blend = keeps_sums() ? sums.data() : weights;
       *energies++ = tet_value_and_stress<Density>(t, blend, G, P);
       for (const auto& row : P)
@@ -196,26 +196,21 @@ bool BlendedEnergy::has_tet_hessians() const {
 }
 
 template <class Evaluate>
-void BlendedEnergy::with_blend(int tet, const double* weights, const double* u,
-                               Evaluate evaluate) const {
+void BlendedEnergy::with_sums(int tet, const double* weights, const double* u,
+                              Evaluate evaluate) const {
   double G[3][3];
   displacement_gradient(energies_[0].rest.tets[tet], u, G);
   Densities::with(kind(), [&]<class Density>() {
-    if constexpr (kHasTetHessian<Density>) {
-      constexpr int kNumbers = PoseBlend<Density>::numbers();
-      const double* pose = numbers_.data() + static_cast<std::size_t>(tet) * poses() * kNumbers;
-      double sums[kNumbers] = {};
-      for (int k = 0; k < poses(); ++k, pose += kNumbers)
-        for (int i = 0; i < kNumbers; ++i) sums[i] += weights[k] * pose[i];
-      evaluate(typename Density::Blend(), sums, G);
-    }
+    double sums[PoseBlend<Density>::numbers()];
+    sum_numbers(tet, weights, sums);
+    evaluate(Density(), sums, G);
   });
 }
 
 void BlendedEnergy::tet_hessian(int tet, const double* weights, const double* u,
                                 double H[9][9]) const {
-  with_blend(tet, weights, u, [&]<class Blend>(Blend, const double* sums, const double G[3][3]) {
-    Blend::hessian(sums, G, H);
+  with_sums(tet, weights, u, [&]<class Density>(Density, const double* sums, const double G[3][3]) {
+    if constexpr (kHasTetHessian<Density>) Density::Blend::hessian(sums, G, H);
   });
 }
 
@@ -225,8 +220,8 @@ bool BlendedEnergy::has_scalar_hessians() const {
 
 void BlendedEnergy::scalar_hessian(int tet, const double* weights, const double* u,
                                    double D[3][3]) const {
-  with_blend(tet, weights, u, [&]<class Blend>(Blend, const double* sums, const double G[3][3]) {
-    if constexpr (requires { &Blend::scalar_hessian; }) Blend::scalar_hessian(sums, G, D);
+  with_sums(tet, weights, u, [&]<class Density>(Density, const double* sums, const double G[3][3]) {
+    if constexpr (kHasScalarHessian<Density>) Density::Blend::scalar_hessian(sums, G, D);
   });
 }
 

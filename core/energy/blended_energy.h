@@ -75,10 +75,10 @@ class BlendedEnergy {
   [[nodiscard]] bool keeps_sums() const;
   void fill_numbers(int tet, int pose, double* result) const;
   /// The numbers of a tet, summed over the poses with these weights.
-  void sum_numbers(int tet, const double* weights, std::vector<double>& sums) const;
-  /// Calls evaluate(Blend, sums of the numbers, G) for a density that has Hessians of single tets.
+  void sum_numbers(int tet, const double* weights, double* sums) const;
+  /// Calls evaluate(density, sums of the tet's numbers, displacement gradient).
   template <class Evaluate>
-  void with_blend(int tet, const double* weights, const double* u, Evaluate evaluate) const;
+  void with_sums(int tet, const double* weights, const double* u, Evaluate evaluate) const;
   template <class Real>
   [[nodiscard]] Sum<Real> add_stars(const Real* blend, const Real* u, Real* gradient, int begin,
                                     int end) const;

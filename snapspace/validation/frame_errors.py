@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..displacements import DisplacementRows
 from ..mesh import Body, TetMesh, mass_norms, tet_volumes
 from ..reduction import ReducedModel, solved_coordinates
 from ..session import FrameReport
 from ..snapshots import Snapshots, check_snapshots_of
+from ..subspace import AffineSubspace
 
 FloatArray = NDArray[np.float64]
 
@@ -55,23 +58,36 @@ def _inverted(mesh: Body, vertices: FloatArray) -> int:
 def solution_errors(model: ReducedModel, reference: Snapshots, solutions: FloatArray) -> FloatArray:
     """Errors (k,) of reduced solutions (k, d), one shape at a time."""
     problem, subspace = model.problem, model.subspace
-    rows = reference.displacements.shifted(problem.base - subspace.tau)
-    errors = np.empty(len(rows))
-    for k, (row, solution) in enumerate(zip(rows, solutions, strict=True)):
-        full = subspace.tau + row
-        miss = problem.aligned(subspace.shape(solution), full) - full
-        error, size = mass_norms(subspace.mass, np.stack([miss, row]))
-        errors[k] = error / size
-    return errors
+    rows = _from_tau(model, reference)
+    return _relative_errors(
+        subspace,
+        rows,
+        (
+            problem.aligned(subspace.shape(solution), subspace.tau + row)
+            for row, solution in zip(rows, solutions, strict=True)
+        ),
+    )
 
 
 def projection_errors(model: ReducedModel, reference: Snapshots) -> FloatArray:
     """Errors (k,) of the projections of full solutions, one shape at a time."""
-    subspace = model.subspace
-    rows = reference.displacements.shifted(model.problem.base - subspace.tau)
+    subspace, rows = model.subspace, _from_tau(model, reference)
+    projections = (subspace.shape(projection) for projection in subspace.row_coordinates(rows))
+    return _relative_errors(subspace, rows, projections)
+
+
+def _from_tau(model: ReducedModel, reference: Snapshots) -> DisplacementRows:
+    """Displacements of full solutions from tau."""
+    return reference.displacements.shifted(model.problem.base - model.subspace.tau)
+
+
+def _relative_errors(
+    subspace: AffineSubspace, rows: DisplacementRows, shapes: Iterable[FloatArray]
+) -> FloatArray:
+    """Distances of shapes (3n,) from tau + row, relative to the rows, (k,)."""
     errors = np.empty(len(rows))
-    for k, (row, projection) in enumerate(zip(rows, subspace.row_coordinates(rows), strict=True)):
-        miss = subspace.shape(projection) - (subspace.tau + row)
+    for k, (row, shape) in enumerate(zip(rows, shapes, strict=True)):
+        miss = shape - (subspace.tau + row)
         error, size = mass_norms(subspace.mass, np.stack([miss, row]))
         errors[k] = error / size
     return errors
