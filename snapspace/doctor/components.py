@@ -7,8 +7,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from ..mesh.arrays import FloatArray, IndexArray
-from ..mesh.box_tree import BoxTree
+from ..mesh.arrays import IndexArray
 from ..mesh.edges import Edges
 
 Labels = NDArray[np.intp]
@@ -18,40 +17,8 @@ def face_components(faces: IndexArray, vertex_count: int) -> Labels:
     """The component of each face, (f,): faces that share a vertex are connected."""
     rows = faces[:, [0, 0]].ravel().astype(np.intp)
     columns = faces[:, 1:].ravel().astype(np.intp)
-    label = _components(rows, columns, vertex_count)[faces[:, 0]]
+    label = connected(rows, columns, vertex_count)[faces[:, 0]]
     return np.unique(label, return_inverse=True)[1].reshape(-1)
-
-
-def parts_apart(vertices: FloatArray, faces: IndexArray) -> tuple[Labels, FloatArray]:
-    """Groups components whose bounding boxes touch; different groups are certainly apart.
-
-    Parameters
-    ----------
-    vertices : ndarray, (n, 3)
-    faces : ndarray of int, (f, 3), f > 0
-
-    Returns
-    -------
-    group : ndarray of int, (f,)
-        The group of each face, the largest first.
-    share : ndarray, (g,)
-        The area of each group, as a share of the whole.
-    """
-    component = face_components(faces, len(vertices))
-    order = np.argsort(component, kind="stable")
-    starts = np.flatnonzero(np.diff(component[order], prepend=-1))
-    corners = vertices[faces[order]]
-    low = np.minimum.reduceat(corners.min(axis=1), starts)
-    high = np.maximum.reduceat(corners.max(axis=1), starts)
-    pairs = [np.concatenate(found) for found in zip(*BoxTree(low, high).overlapping(), strict=True)]
-    left, right = pairs or (np.empty(0, np.intp), np.empty(0, np.intp))
-    group = _components(left, right, len(starts))[component]
-    sides = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    area = np.bincount(group[order], np.linalg.norm(sides, axis=1))
-    rank = np.argsort(-area, kind="stable")
-    number = np.empty(len(rank), np.intp)
-    number[rank] = np.arange(len(rank))
-    return number[group], area[rank] / (area.sum() or 1.0)
 
 
 def orientation(edges: Edges) -> tuple[NDArray[np.bool_], Labels, NDArray[np.bool_]]:
@@ -81,7 +48,7 @@ def orientation(edges: Edges) -> tuple[NDArray[np.bool_], Labels, NDArray[np.boo
     columns = np.concatenate(
         [np.where(agree, right, right + count), np.where(agree, right + count, right)]
     )
-    label = _components(rows, columns, 2 * count)
+    label = connected(rows, columns, 2 * count)
     kept, turned = label[:count], label[count:]
     patch = np.unique(np.minimum(kept, turned), return_inverse=True)[1].reshape(-1)
     # a face whose kept node has the higher label is on the other side of its patch
@@ -91,6 +58,7 @@ def orientation(edges: Edges) -> tuple[NDArray[np.bool_], Labels, NDArray[np.boo
     return turn & (kept != turned), patch, kept == turned
 
 
-def _components(rows: Labels, columns: Labels, count: int) -> Labels:
+def connected(rows: Labels, columns: Labels, count: int) -> Labels:
+    """The component of each of `count` nodes; each pair (rows, columns) is connected."""
     graph = coo_array((np.ones(len(rows), np.int8), (rows, columns)), shape=(count, count))
     return np.asarray(connected_components(graph, directed=False)[1], np.intp)

@@ -9,12 +9,14 @@ from ..counted import counted
 from ..mesh.arrays import FloatArray, IndexArray
 from ..mesh.edges import Edges
 from .cleaned import Cleaned
-from .components import face_components, orientation, parts_apart
+from .components import face_components, orientation
 from .fill_holes import closable_holes
 from .finding import AS_SHELL, Finding
 from .holes import Hole, is_sheet
+from .parts_apart import parts_apart
 
-#: Parts with a smaller share of the area are dust, which filling leaves out.
+#: Parts with a smaller share of the volume are dust, which filling leaves out. The area decides if
+#: the surface is not closed.
 DUST = 1e-3
 
 
@@ -155,17 +157,17 @@ def _parts(count: int, group: NDArray[np.intp], share: FloatArray) -> Finding:
         first = int(np.flatnonzero(group == 1)[0])
         text += f"; {large} of them are separate (face {first} is in the second largest)"
     if dust:
-        text += f"; {dust} are separate and small"
+        text += f"; {dust} {'is' if dust == 1 else 'are'} separate and small"
     return Finding(
         name="components",
         fault=large > 1,
         count=count,
         text=text,
         meaning="filling needs one solid: it refuses large separate parts, leaves out those below "
-        f"{DUST:.1%} of the area, and makes one solid of overlapping ones with fTetWild",
+        f"{DUST:.1%} of the volume, and makes one solid of overlapping ones with fTetWild",
         cure="join them, or remove separate parts; eyes and clothes can follow the body with "
         "`snapspace pose --surface FILE`",
-        details={"areas": share[:100].tolist()},
+        details={"shares": share[:100].tolist()},
     )
 
 

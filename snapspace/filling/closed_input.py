@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from ..arguments import is_number, shown
 from ..counted import counted
 from ..doctor import mend_surface
-from ..doctor.components import parts_apart
 from ..doctor.edge_findings import DUST
+from ..doctor.parts_apart import parts_apart
 from ..input_error import InputError
 from ..mesh import MeshNotice, compact_surface
 from ..mesh.arrays import FloatArray, IndexArray, as_indices, as_points
