@@ -12,24 +12,13 @@ from ..doctor.holes import is_sheet
 from ..extras import need_extra
 from ..filling import SurfaceFilling
 from ..filling.surface_filling import EXACTLY
-from ..mesh import SurfaceFile, TetMesh
+from ..mesh import TetMesh
 from ..mesh.arrays import FloatArray, IndexArray
 from .console import notice
 from .progress import spinner
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 _AS_SHELL = "give --shell THICKNESS, which makes it a shell"
-
-
-def edge_length_option(*, default: str) -> Callable[[Command], Command]:
-    """Adds --edge-length, None for the default that the help names."""
-    return click.option(
-        "--edge-length",
-        type=click.FloatRange(min=0, max=0.5, min_open=True),
-        metavar="SHARE",
-        help="Edge length of the tets that fill a surface, relative to its diagonal "
-        f"[default: {default}].",
-    )
 
 
 def filling_options(command: Command) -> Command:
@@ -41,7 +30,13 @@ def filling_options(command: Command) -> Command:
             help="Fill surfaces with fTetWild, which keeps sharp edges but takes up to a few "
             "minutes instead of seconds.",
         ),
-        edge_length_option(default="0.025, with --exact 0.02"),
+        click.option(
+            "--edge-length",
+            type=click.FloatRange(min=0, max=0.5, min_open=True),
+            metavar="SHARE",
+            help="Edge length of the tets that fill a surface, relative to its diagonal "
+            "[default: 0.025, with --exact 0.02].",
+        ),
     ):
         command = option(command)
     return command
@@ -60,28 +55,30 @@ def check_unfilled(filling: SurfaceFilling, why: str) -> None:
         raise ValueError(f"{word} is for filling a surface with tets, but {why}; leave it out")
 
 
-def filled(file: SurfaceFile, filling: SurfaceFilling) -> tuple[TetMesh, bool]:
-    """The tets inside a surface file, and whether they are fTetWild's, which differ in each run."""
+def filled(
+    name: str, vertices: FloatArray, faces: IndexArray, filling: SurfaceFilling
+) -> tuple[TetMesh, bool]:
+    """The tets inside a surface, and whether they are fTetWild's, which differ in each run."""
     check_installed(filling)
     stages: set[str] = set()
 
-    def stage(name: str, *_: int) -> None:
-        if name == EXACTLY and name not in stages and not filling.exact:
-            if is_sheet(file.vertices, file.faces):
+    def stage(stage: str, *_: int) -> None:
+        if stage == EXACTLY and stage not in stages and not filling.exact:
+            if is_sheet(vertices, faces):
                 why = "is open; fTetWild guesses its inside, in up to some minutes (a sheet such "
                 why += f"as cloth has none: {_AS_SHELL})"
             else:
                 why = "has parts or gaps too thin for quick tets of this size; fTetWild fills it, "
                 why += "in up to some minutes (a shorter --edge-length may be faster)"
-            notice(f"notice: {file.name} {why}")
-        stages.add(name)
+            notice(f"notice: {name} {why}")
+        stages.add(stage)
 
-    with spinner(f"filling {file.name} with tets"):
+    with spinner(f"filling {name} with tets"):
         try:
-            with naming_shells(file.vertices, file.faces):
-                tets = filling.fill(file.vertices, file.faces, stage=stage)
+            with naming_shells(vertices, faces):
+                tets = filling.fill(vertices, faces, stage=stage)
         except ValueError as error:
-            raise ValueError(f"{file.name}: {error}") from None
+            raise ValueError(f"{name}: {error}") from None
     return tets, EXACTLY in stages
 
 

@@ -16,6 +16,7 @@ from rich.text import Text
 from ..accurate import BLENDS, check_budget
 from ..arguments import check_target
 from ..cubature import FEWEST_BLENDS
+from ..filling import SurfaceFilling
 from ..fitting import DEVIATION, PoseFit, check_deviation
 from ..mesh import write_tets
 from ..problem import InterpolationProblem, Poses, Simplex, usual_projection
@@ -28,7 +29,7 @@ from .choices import WEIGHT_SAMPLINGS, Choices, choice_options
 from .console import notice, print_json, print_next, print_table
 from .dask_cluster import dask_executor
 from .files import make_folder
-from .filling_options import edge_length_option
+from .filling_options import check_unfilled, filling_options
 from .fit_cache import FitCache
 from .given_options import given_options
 from .options import FILE, SHARE, TET_COUNT, dask_option, json_option, shell_option, threads_option
@@ -52,7 +53,7 @@ SAMPLES, DIMENSION = 40, 30
     help="Tet mesh of the first surface: it begins with the surface's vertices, or encloses it "
     "[default: the surface is filled].",
 )
-@edge_length_option(default="0.02")
+@filling_options
 @click.option(
     "--deviation",
     type=SHARE,
@@ -100,6 +101,7 @@ def interpolate(
     output: Path,
     tets: Path | None,
     edge_length: float | None,
+    exact: bool,
     deviation: float | None,
     thickness: float | None,
     scale: ScalePolicy,
@@ -141,8 +143,9 @@ def interpolate(
     check_output(output)
     if len(files) < 2:
         raise ValueError(f"interpolate needs two poses or more, got {len(files)}")
-    if tets is not None and edge_length is not None:
-        raise ValueError("--edge-length is for filling the surface; leave it or --tets out")
+    filling = SurfaceFilling(edge_length=edge_length, exact=exact)
+    if tets is not None:
+        check_unfilled(filling, "--tets has them")
     material = blend_material(kind, lam=lam, mu=mu, radius=radius, shell=thickness is not None)
     domain = Simplex(corners=len(files), extrapolation=extrapolation)
     recipe = choices.recipe(domain, dimension=DIMENSION, threads=threads, known=len(files))
@@ -150,14 +153,14 @@ def interpolate(
     check_target(target_error)
     check_budget(budget)
     recipe = replace(recipe, tets=cubature_tets)
-    exact = material.exact_degree == 4 and thickness is None
-    if exact and cubature_tets is not None:
+    quartic = material.exact_degree == 4 and thickness is None
+    if quartic and cubature_tets is not None:
         raise ValueError(
             "--cubature-tets is for materials whose reduced energy is a sum over a few tets, but "
             "that of stvk is exact; leave it out"
         )
-    by_hand = decided_by_hand(exact=exact, deciding=BLENDS_DECIDING)
-    if not exact and choices.samples < FEWEST_BLENDS:
+    by_hand = decided_by_hand(exact=quartic, deciding=BLENDS_DECIDING)
+    if not quartic and choices.samples < FEWEST_BLENDS:
         raise ValueError(
             f"the energy is a cubature, which needs at least {FEWEST_BLENDS} samples, but there is "
             f"{choices.samples}; raise --samples, or use --material stvk"
@@ -170,7 +173,7 @@ def interpolate(
     cache = FitCache.beside(output)
     options = PoseOptions(
         tets=tets,
-        edge_length=edge_length,
+        filling=filling,
         deviation=deviation,
         thickness=thickness,
         scale=scale,
@@ -196,7 +199,7 @@ def interpolate(
         "pose_seconds": pose_set.seconds,
         "options": given_options(),
     }
-    if not exact:
+    if not quartic:
         notice_decided(BLENDS_DECIDING)
     build = chosen_build(
         problem,

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..filling import fill_surface
+from ..filling import SurfaceFilling
 from ..fitting import DEVIATION, PoseFit, fit_poses
 from ..mesh import (
     EmbeddedSurface,
@@ -31,10 +30,10 @@ from ..problem import Poses, ShellPoses
 from ..registration import ScalePolicy
 from .console import notice
 from .files import SURFACE_INPUTS, TET_INPUTS
-from .filling_options import naming_shells
+from .filling_options import filled
 from .fit_cache import FitCache
 from .pose_scales import notice_sizes, scaled_poses
-from .progress import spinner, step_progress
+from .progress import step_progress
 from .shell_pose_files import read_shell_poses
 
 FloatArray = NDArray[np.float64]
@@ -45,8 +44,7 @@ class PoseOptions:
     """How poses are read.
 
     tets : file with the tets of the first pose's surface; None fills the surface
-    edge_length : edge length of the tets that fill it, relative to the diagonal; None for the
-        default
+    filling : how the surface is filled
     deviation : goal for the rms distance between fits and surfaces, relative to the diagonal; None
         for the default
     thickness : thickness of surfaces that are used as shells; None fills them
@@ -57,7 +55,7 @@ class PoseOptions:
     """
 
     tets: Path | None
-    edge_length: float | None
+    filling: SurfaceFilling
     deviation: float | None
     thickness: float | None
     scale: ScalePolicy
@@ -105,7 +103,8 @@ def read_poses(files: Sequence[Path], options: PoseOptions, cache: FitCache) -> 
         return _from_surfaces(files, names, options, cache)
     of_surfaces = {
         "--tets": options.tets,
-        "--edge-length": options.edge_length,
+        "--edge-length": options.filling.edge_length,
+        "--exact": options.filling.exact or None,
         "--deviation": options.deviation,
     }
     for name, value in of_surfaces.items():
@@ -160,7 +159,7 @@ def _from_surfaces(
     )
     seconds: dict[str, float] = {}
     begin = time.perf_counter()
-    mesh = _tets_of(targets[0], faces, options, cache)
+    mesh = _tets_of(files[0].name, targets[0], faces, options, cache)
     # if the tets were made in the surface, all of it follows them, even small parts that filling
     # left out
     farthest = WHOLE_DIAGONAL if options.tets is None else 0.02
@@ -182,22 +181,23 @@ def _from_surfaces(
 
 
 def _tets_of(
-    vertices: FloatArray, faces: NDArray[np.int32], options: PoseOptions, cache: FitCache
+    name: str,
+    vertices: FloatArray,
+    faces: NDArray[np.int32],
+    options: PoseOptions,
+    cache: FitCache,
 ) -> TetMesh:
     if options.tets is not None:
         mesh = read_tets(options.tets, repair=options.repair)
         _check_size(mesh, vertices, options.tets)
         return mesh
-    size: dict[str, Any] = (
-        {} if options.edge_length is None else {"edge_length": options.edge_length}
-    )
-    known = cache.load_tets(vertices, faces, size)
+    settings = asdict(options.filling)
+    known = cache.load_tets(vertices, faces, settings)
     if known is not None:
         notice("resuming: the first pose was filled before")
         return known
-    with spinner("filling the first pose with tets"), naming_shells(vertices, faces):
-        mesh = fill_surface(vertices, faces, mend=True, **size)
-    cache.save_tets(vertices, faces, size, mesh)
+    mesh, _ = filled(name, vertices, faces, options.filling)
+    cache.save_tets(vertices, faces, settings, mesh)
     return mesh
 
 

@@ -126,7 +126,7 @@ def _shell_input(
 
 
 def _tets(file: SurfaceFile, filling: SurfaceFilling, kept: Path) -> TetMesh:
-    tets, differ = filled(file, filling)
+    tets, differ = filled(file.name, file.vertices, file.faces, filling)
     notice(f"filled {file.name} with {len(tets.tets):,} tets")
     if differ:
         write_tets(kept, tets)

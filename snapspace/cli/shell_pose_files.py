@@ -21,6 +21,7 @@ from .pose_scales import notice_sizes, scaled_poses
 _OF_TETS = (
     "--tets",
     "--edge-length",
+    "--exact",
     "--deviation",
     "--accept-inverted",
     "--save-poses",

@@ -14,7 +14,6 @@ from snapspace import (
     PosingModel,
     ShellMesh,
     load,
-    open_surface,
     read_problem,
     read_problem_surface,
     read_surface,
@@ -192,9 +191,9 @@ def test_the_notice_says_why_quick_tets_fail(
         return bar(2, 1, 1)
 
     monkeypatch.setattr(SurfaceFilling, "fill", fill)
-    filled(open_surface(surface), filling)
+    filled(surface.name, *read_surface(surface), filling)
     assert "sheet.obj is open; fTetWild guesses its inside" in capsys.readouterr().err
     closed = surface.with_name("block.obj")
     write_surface(closed, *block())
-    filled(open_surface(closed), filling)
+    filled(closed.name, *block(), filling)
     assert "block.obj has parts or gaps too thin" in capsys.readouterr().err

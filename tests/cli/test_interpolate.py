@@ -272,14 +272,14 @@ def test_inverted_tets_are_accepted_when_asked_for(run: Run, tmp_path: Path) -> 
     assert f"{count} tets inverted" in " ".join(result.err.split())
 
 
-def test_without_tets_the_first_surface_is_filled(run: Run, tmp_path: Path) -> None:
+def test_with_exact_ftetwild_fills_the_first_surface(run: Run, tmp_path: Path) -> None:
     """The only run of fTetWild in these tests, on the simplest surface."""
     vertices, faces = CORNER_TET, one_tet().surface
     leaning = vertices + 0.3 * vertices[:, [2]] * [1.0, 0.0, 0.0]
     write_surface(tmp_path / "corner.off", vertices, faces)
     write_surface(tmp_path / "leaning.off", leaning, faces)
     path = tmp_path / "m.snapspace"
-    words = (tmp_path / "corner.off", tmp_path / "leaning.off", "--edge-length", 0.2)
+    words = (tmp_path / "corner.off", tmp_path / "leaning.off", "--exact", "--edge-length", 0.2)
     size = ("--samples", 2, "--dimension", 2, "-o", path, "--save-poses", tmp_path / "tets")
     figures = run("interpolate", *words, *size, "--json").json
     model = loaded(path)

@@ -37,7 +37,14 @@ OUT_OF_RANGE: dict[str, tuple[list[object], str]] = {
         ["--solver", "newton", "--clamp", 0.5],
         "--clamp is for --projection stretches, not clamp, the default of this material",
     ),
-    "edge length of tets": (["--edge-length", 0.1], "--edge-length is for filling the surface"),
+    "edge length of tets": (
+        ["--edge-length", 0.1],
+        "--edge-length is for filling a surface with tets, but --tets has them",
+    ),
+    "fTetWild for tets": (
+        ["--exact"],
+        "--exact is for filling a surface with tets, but --tets has them",
+    ),
 }
 
 
@@ -86,12 +93,14 @@ def test_tet_poses_are_not_repaired(run: Run, tmp_path: Path) -> None:
     assert contents(tmp_path) == before
 
 
-@pytest.mark.parametrize("word", ["--edge-length", "--deviation"])
-def test_tet_poses_are_neither_filled_nor_fitted(run: Run, tmp_path: Path, word: str) -> None:
+@pytest.mark.parametrize("word", [["--edge-length", 0.01], ["--exact"], ["--deviation", 0.01]])
+def test_tet_poses_are_neither_filled_nor_fitted(
+    run: Run, tmp_path: Path, word: list[object]
+) -> None:
     poses = write_tet_poses(tmp_path)
-    words = [*SMALL, word, 0.01, "-o", tmp_path / "m.snapspace"]
+    words = [*SMALL, *word, "-o", tmp_path / "m.snapspace"]
     error = run("interpolate", *poses, *words).error
-    assert error == f"{word} is for poses that are surfaces, but these are tets; leave it out"
+    assert error == f"{word[0]} is for poses that are surfaces, but these are tets; leave it out"
 
 
 def test_without_tets_of_its_own_there_is_nothing_to_repair(run: Run, tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from safetensors.numpy import load_file
 
 from snapspace import interruptible
 from snapspace.cli import pipeline, pose_files, samples
+from snapspace.filling import SurfaceFilling
 
 from .conftest import Run
 from .files import contents, enclosing_mesh, write_surface_poses
@@ -128,7 +129,7 @@ def test_tets_that_fill_the_surface_are_kept(
     """Every filling differs, so samples could not be resumed with a new one."""
     words = ("interpolate", *write_surface_poses(tmp_path), *SMALL, "-o", tmp_path / "m.snapspace")
     with monkeypatch.context() as patch:
-        patch.setattr(pose_files, "fill_surface", lambda *_, **__: enclosing_mesh())
+        patch.setattr(SurfaceFilling, "fill", lambda *_, **__: enclosing_mesh())
         patch.setattr(pose_files, "fit_poses", stop)
         result = run(*words)
     assert result.code == 130
@@ -138,7 +139,7 @@ def test_tets_that_fill_the_surface_are_kept(
     def filled_again(*_: object, **__: object) -> None:
         raise AssertionError("the surface was filled before")
 
-    monkeypatch.setattr(pose_files, "fill_surface", filled_again)
+    monkeypatch.setattr(SurfaceFilling, "fill", filled_again)
     resumed = run(*words, "--json")
     assert "resuming: the first pose was filled before" in resumed.err
     assert resumed.json["tets"] == len(enclosing_mesh().tets)

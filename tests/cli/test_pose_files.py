@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from snapspace import TetMesh, write_surface, write_tets
-from snapspace.cli import pose_files
 from snapspace.cli.fit_cache import FitCache
 from snapspace.cli.pose_files import PoseOptions, pose_names, read_poses
+from snapspace.filling import SurfaceFilling, surface_filling
 from snapspace.mesh import mass_matrix
 from snapspace.registration import registered
 
@@ -33,7 +33,7 @@ from .files import (
 def options(**changes: Any) -> PoseOptions:
     plain: dict[str, Any] = {
         "tets": None,
-        "edge_length": None,
+        "filling": SurfaceFilling(),
         "thickness": None,
         "deviation": None,
         "scale": "auto",
@@ -129,23 +129,41 @@ def test_a_surface_is_filled_once(
     tmp_path: Path, cache: FitCache, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Filling is slow and differs each time, so its result is kept."""
-    calls: list[dict[str, Any]] = []
+    calls: list[SurfaceFilling] = []
 
-    def fill(vertices: Any, faces: Any, **options: Any) -> TetMesh:
-        calls.append(options)
+    def fill(filling: SurfaceFilling, vertices: Any, faces: Any, **_: Any) -> TetMesh:
+        calls.append(filling)
         np.testing.assert_array_equal(vertices, bar_surfaces()["rest"][0])
         np.testing.assert_array_equal(faces, bar_surfaces()["rest"][1])
         return enclosing_mesh()
 
-    monkeypatch.setattr(pose_files, "fill_surface", fill)
+    monkeypatch.setattr(SurfaceFilling, "fill", fill)
     files = write_surface_poses(tmp_path)
     first = read_poses(files, options(), cache)
     again = read_poses(files, options(), cache)
-    assert calls == [{"mend": True}]
+    assert calls == [SurfaceFilling()]
     np.testing.assert_array_equal(again.poses.shapes, first.poses.shapes)
     assert list(again.fits) == list(first.fits)  # the seconds too: nothing was fitted again
-    read_poses(files, options(edge_length=0.1), cache)
-    assert calls == [{"mend": True}, {"mend": True, "edge_length": 0.1}]
+    finer, exact = SurfaceFilling(edge_length=0.1), SurfaceFilling(exact=True)
+    read_poses(files, options(filling=finer), cache)
+    read_poses(files, options(filling=exact), cache)
+    assert calls == [SurfaceFilling(), finer, exact]
+
+
+def test_surfaces_without_thin_parts_are_filled_in_seconds(
+    tmp_path: Path, cache: FitCache, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As in `build`, fTetWild, which takes up to some minutes, is not needed."""
+
+    def refused(*_: object, **__: object) -> None:
+        raise AssertionError("fTetWild was used")
+
+    monkeypatch.setattr(surface_filling, "fill_surface", refused)
+    files = write_surface_poses(tmp_path)
+    pose_set = read_poses(files, options(filling=SurfaceFilling(edge_length=0.04)), cache)
+    assert {fit.status for fit in pose_set.fits} == {"converged"}
+    volumes = pose_set.poses.volumes.sum(axis=1)
+    np.testing.assert_allclose(volumes, bar_mesh().volume, rtol=0.06)
 
 
 def test_the_first_pose_decides_the_unit_of_length(
