@@ -56,7 +56,7 @@ def _inverted(unseen: dict[str, Any]) -> str:
     return (
         f"in {_shapes(counts['samples'], 'samples')}; in "
         f"{_shapes(counts['frames'], 'frames of unseen ' + unseen['name'])}; in "
-        f"{_shapes(counts['unseen'], 'their full solutions')}"
+        f"{_shapes(counts['unseen'], 'full solutions of these')}"
     )
 
 
