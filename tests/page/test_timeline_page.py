@@ -103,7 +103,7 @@ def test_keys_are_moved_held_and_removed(posing_page: Path, opened: OpenPage) ->
         ({**content, "kind": "interpolation"}, "of kind interpolation"),
         ({**content, "keys": [{"time": 0, "handles": {"tail": head}}]}, "'tail'"),
         ({**content, "keys": keys[::-1]}, "no time after"),
-        ({**content, "keys": [None]}, "Key 0 of the timeline is no object"),
+        ({**content, "keys": [None]}, "Key 0 of the timeline is not an object"),
     ):
         opened_keys(page, wrong)
         page.page.get_by_text(words).wait_for()

@@ -53,7 +53,7 @@ export function timelineOf<State>(given: unknown, states: States<State>): Timeli
   const keys: Key<State>[] = [];
   for (const [number, entry] of entries.entries()) {
     if (typeof entry !== "object" || entry === null)
-      throw new Error(`Key ${number} of the timeline is no object.`);
+      throw new Error(`Key ${number} of the timeline is not an object.`);
     const { time, easing = "smooth" } = entry as Record<string, unknown>;
     if (typeof time !== "number" || !(time >= 0) || time <= (keys.at(-1)?.time ?? -1))
       throw new Error(`Key ${number} of the timeline has no time after the one before it.`);
