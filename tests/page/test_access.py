@@ -5,7 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from .choosing_page import press, wait_for_text
+from snapspace.mesh import write_tets
+from snapspace.server.bodies import read_mesh
+from snapspace.server.shared_body import SharedBody
+
+from ..server.in_process import socket, started
+from .choosing_page import BAR, press, wait_for_text
 from .pages import OpenPage, Page, Tabs
 from .serving import served
 
@@ -129,6 +134,21 @@ def test_without_javascript_the_page_says_so(posing_page: Path, chromium: object
     page.goto(posing_page.as_uri())
     assert "JavaScript" in page.locator(".noscript").inner_text()
     context.close()
+
+
+def test_a_phone_shows_the_name_of_the_mesh_without_a_connection(
+    tmp_path: Path, opened: OpenPage, chromium: object
+) -> None:
+    write_tets(tmp_path / "bar.mesh", BAR)
+    address = started(body=SharedBody(read_mesh(tmp_path / "bar.mesh")))
+    page = opened(address, **PHONE)
+    page.wait("snapspace.kind === 'choosing'")
+    id = page.run("new URLSearchParams(location.search).get('workspace')")
+    with socket(address, id):
+        wait_for_text(page, "#connection", "open in another tab")
+        assert page.run(COVERED) == []
+        page.page.locator("#fold").click()
+        assert page.run(COVERED) == []
 
 
 def test_a_new_token_is_asked_for(bar_folder: Path, opened: OpenPage) -> None:

@@ -118,6 +118,22 @@ def test_filling_can_be_cancelled(
     page.wait("snapspace.stage.root.children.length === 0")
 
 
+def test_a_tab_that_was_taken_over_shows_no_filling(
+    tmp_path: Path, opened: OpenPage, chromium: object, filling: HeldFilling
+) -> None:
+    page = dropped(tmp_path, opened, filling)
+    wait_for_text(page, "#message", "Making a solid of bar")
+    id = page.run("new URLSearchParams(location.search).get('workspace')")
+    with socket(page.address, id):
+        wait_for_text(page, "#connection", "open in another tab")
+        assert page.run("document.getElementById('message').hidden"), "it could not cancel it"
+        assert page.run(IS_LOOKED_AT)
+    press(page, "Use it here")
+    wait_for_text(page, "#message", "Making a solid of bar")
+    filling.let_go.set()
+    page.wait("snapspace.kind === 'choosing'")
+
+
 def test_the_state_of_reading_is_shown_once(opened: OpenPage, chromium: object) -> None:
     def read(opening: Opening) -> Body:
         opening.stage("reading")

@@ -46,6 +46,8 @@ def test_progress_after_a_reload_and_in_a_tab_that_was_taken_over(
     with socket(address, id):
         wait_for_text(page, "#connection", "open in another tab")
         assert not page.run(BAR_IS_SHOWN), "nothing is known of the computation"
+        assert not page.page.get_by_role("button", name="Cancel").is_visible()
+        assert not page.page.get_by_role("button", name="Compute").is_visible()
     press(page, "Use it here")
     page.wait(BAR_IS_SHOWN)
     assert STAGE in page.text(".progress-words")

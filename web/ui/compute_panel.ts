@@ -72,14 +72,17 @@ export class ComputePanel {
     isChoosing: boolean;
     lacking: string;
     isRunning: boolean;
+    /** Whether there is a server: without it nothing is known of a computation, and nothing can stop it. */
+    isConnected: boolean;
     /** The kind of the model that there is. */
     model: "posing" | "interpolation" | null;
     /** Whether the view has its own button that leads to the handles. */
     hasChooser: boolean;
   }): void {
+    const isSeen = now.isRunning && now.isConnected;
     this.#compute.hidden = !now.isChoosing || now.isRunning;
     this.#compute.disabled = now.lacking !== "";
-    this.#cancel.hidden = !now.isRunning;
+    this.#cancel.hidden = !isSeen;
     this.#choose.hidden = now.isChoosing || now.hasChooser;
     this.#show.hidden = !now.isChoosing || now.model === null;
     this.#show.textContent = now.model === "interpolation" ? "Blend" : "Pose";
@@ -87,10 +90,10 @@ export class ComputePanel {
     this.#compute.title = now.lacking;
     const isPosed = now.model === "posing"; // only such a model is of handles
     this.#save.textContent = isPosed ? "Save" : "Save handles";
-    this.#showModel(now.isRunning);
+    this.#showModel(isSeen);
     this.#save.hidden = now.lacking !== "" || (!now.isChoosing && !isPosed);
     this.#export.hidden = now.model === null;
-    if (!now.isRunning) this.#bar.element.hidden = true;
+    if (!isSeen) this.#bar.element.hidden = true;
   }
 
   /** Whether all numbers in the panel are valid; shows the first one that is not. */
@@ -112,11 +115,6 @@ export class ComputePanel {
   /** Shows that a computation begins. */
   begin(): void {
     this.#bar.show({ stage: "snapshots", done: 0, total: 0, eta: null, error: null });
-  }
-
-  /** Hides the bar until there is progress again: without a connection nothing is known of the computation. */
-  stall(): void {
-    this.#bar.element.hidden = true;
   }
 
   progress(progress: Progress): void {

@@ -169,6 +169,7 @@ export class ServedModels {
       isChoosing: this.#view === null,
       lacking: this.#chosen.lacking,
       isRunning: this.job.isRunning,
+      isConnected: this.#server.isOpen,
       model: this.#model?.content.kind ?? null,
       hasChooser: this.#isOwn,
     });

@@ -98,9 +98,9 @@ export class Workspace {
     document.body.append(notice.element);
     server.onConnection = (connection) => {
       notice.show(connection);
+      models.update();
       if (connection === "open") return models.panel.fault(""); // which was that there is none
       this.#begun(null);
-      models.panel.stall();
       if (!this.#mesh) this.#reading.lose();
     };
     for (const type of ["input", "change"])

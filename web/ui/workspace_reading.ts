@@ -113,9 +113,12 @@ export class ReadingBox {
     if (this.#isShown) this.#bar.show(progress);
   }
 
-  /** Stops the clock after the connection was lost. */
+  /** After the connection was lost: nothing is known of what the server opens, and nothing can stop it. */
   lose(): void {
     clearInterval(this.#clock);
+    if (!this.#isShown || this.#sending) return;
+    this.#isShown = false;
+    this.#shell.quiet();
   }
 
   failed(message: string): void {
