@@ -3,7 +3,7 @@ import { defineConfig } from "vite";
 
 import { core } from "./vite.core.ts";
 import { notices } from "./vite.notices.ts";
-import { threeSources } from "./vite.three.ts";
+import { threeSources, withoutColorNames } from "./vite.three.ts";
 
 /** Puts the script and the style into the page, so that it is one file that opens from a disk. */
 function oneFile(): Plugin {
@@ -38,7 +38,7 @@ function oneFile(): Plugin {
 }
 
 export default defineConfig({
-  plugins: [core(), notices(), oneFile()],
+  plugins: [core(), notices(), withoutColorNames(), oneFile()],
   resolve: { alias: [threeSources] },
   build: {
     target: "es2022",

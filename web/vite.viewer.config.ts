@@ -2,11 +2,11 @@ import { defineConfig } from "vite";
 
 import { core } from "./vite.core.ts";
 import { notices } from "./vite.notices.ts";
-import { threeSources } from "./vite.three.ts";
+import { threeSources, withoutColorNames } from "./vite.three.ts";
 
 // The file of the npm package.
 export default defineConfig({
-  plugins: [core(), notices()],
+  plugins: [core(), notices(), withoutColorNames()],
   resolve: { alias: [threeSources] },
   build: {
     target: "es2022",

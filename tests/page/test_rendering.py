@@ -88,3 +88,16 @@ def test_backs_of_closed_bodies_are_not_drawn(posing_page: Path, opened: OpenPag
         })()"""
     )
     assert not (picture(page)[..., 3] == 255).any(), "seen from inside"
+
+
+def test_flat_faces_end_in_sharp_edges(bar_server: str, opened: OpenPage) -> None:
+    """Seen from in front, a face of the bar has one shade from its upper edge to its lower one."""
+    page = opened(bar_server, sharp=True)
+    page.wait("snapspace.kind === 'choosing'")
+    page.page.keyboard.press("Numpad8")
+    page.settle()
+    seen = picture(page)
+    column = seen[:, seen.shape[1] // 2]
+    face = column[column[:, 3] == 255, :3]
+    assert len(face) > 20
+    assert np.ptp(face[2:-2], axis=0).max() <= 6

@@ -3,7 +3,7 @@
 type Rows = ArrayLike<number>;
 
 /** Normals as long as twice the areas. */
-export function triangleNormals(shape: Rows, triangles: Int32Array): Float64Array {
+export function triangleNormals(shape: Rows, triangles: Int32Array | Uint32Array): Float64Array {
   const normals = new Float64Array(triangles.length);
   for (let i = 0; i < triangles.length; i += 3) {
     const edge = (corner: number, axis: number) =>

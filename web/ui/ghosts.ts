@@ -3,7 +3,6 @@ import { NEARER } from "../render/index.ts";
 import { CLAY } from "./handle_colors.ts";
 import type { Stage } from "./stage.ts";
 import type { Surface } from "./surface.ts";
-import { surfaceVertex } from "./surface_shader.ts";
 
 /** A shape by its coefficients, and where it is carried to. */
 export interface Ghost {
@@ -60,7 +59,7 @@ export class Ghosts {
 function fade(surface: Surface): void {
   const { solid } = surface;
   Object.assign(solid.material, {
-    vertex: surfaceVertex("COLORS", "MOVED"),
+    vertex: `#define MOVED\n${solid.material.vertex}`,
     isTransparent: true,
     depthWrite: false,
   });

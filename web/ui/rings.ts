@@ -1,6 +1,11 @@
+interface Rings {
+  readonly ranges: Int32Array<ArrayBuffer>;
+  readonly pairs: Int32Array<ArrayBuffer>;
+}
+
 /** The faces around each vertex: for vertex v its pairs [start, start + count) are the other two corners of
  * its faces, in the faces' orientation. */
-export function rings(faces: Uint32Array, vertices: number): { ranges: Int32Array; pairs: Int32Array } {
+export function rings(faces: Uint32Array, vertices: number): Rings {
   const ranges = new Int32Array(2 * vertices);
   faces.forEach((vertex) => ranges[2 * vertex + 1]++);
   for (let vertex = 1; vertex < vertices; vertex++)

@@ -9,15 +9,17 @@ import {
   type RigidMap,
   type ShapeSpace,
 } from "../engine/index.ts";
-import { Geometry, Mesh, type Attribute, type Graphics } from "../render/index.ts";
+import { Geometry, Mesh, type Attribute, type Graphics, type Texture } from "../render/index.ts";
 import { CpuDeformer } from "./cpu_deformer.ts";
-import type { Deformer } from "./deformer.ts";
+import { textureSize, type Deformer } from "./deformer.ts";
 import { edgesOf } from "./edges.ts";
 import { encloses } from "./encloses.ts";
 import { GpuDeformer } from "./gpu_deformer.ts";
+import { integers } from "./gpu_pass.ts";
 import { Occlusion } from "./occlusion.ts";
 import type { OwnLook } from "./own_look.ts";
 import { OwnSurface } from "./own_surface.ts";
+import { copyRows, sharpEdges } from "./sharp_edges.ts";
 import { clay, wires } from "./surface_materials.ts";
 import type { SurfaceUniforms } from "./surface_shader.ts";
 
@@ -40,6 +42,9 @@ export class Surface {
   readonly #graphics: Graphics;
   readonly #deformer: Deformer;
   readonly #colors: Attribute;
+  /** With sharp edges: the vertices of the points that are drawn, and pairs of vertices of the faces around them. */
+  readonly #points: Int32Array | null;
+  readonly #pairs: Texture | null;
   readonly solid: Mesh;
   #wires: Mesh | null = null;
   readonly #own: OwnSurface | null;
@@ -73,7 +78,13 @@ export class Surface {
       ? new GpuDeformer(graphics, space, faces, rests)
       : new CpuDeformer(space, faces, rests);
     this.#rests = rests;
-    this.#colors = { data: new Float32Array(3 * space.vertices).fill(1), size: 3 };
+    const sharp = sharpEdges(space.base, faces);
+    this.#points = sharp?.points ?? null;
+    const places = new Float32Array(sharp ? 3 * sharp.points.length : space.base.length);
+    places.set(space.base);
+    if (sharp) copyRows(places, sharp.points, space.vertices);
+    this.#colors = { data: new Float32Array(places.length).fill(1), size: 3 };
+    this.#pairs = sharp && integers(sharp.pairs, ...textureSize(sharp.pairs.length / 2));
     this.#uniforms = {
       shownPositions: { value: this.#deformer.positions },
       shownNormals: { value: this.#deformer.normals },
@@ -88,8 +99,16 @@ export class Surface {
       encloses: { value: encloses(faces, space.base) },
       opacity: { value: 1 },
     };
-    const attributes = { position: { data: space.base, size: 3 }, vertexColor: this.#colors };
-    this.solid = new Mesh(new Geometry(attributes, faces), clay(this.#uniforms));
+    const attributes = {
+      position: { data: places, size: 3 },
+      vertexColor: this.#colors,
+      ...(sharp && {
+        ownVertex: { data: sharp.points, size: 1 },
+        ownRing: { data: sharp.ranges, size: 2 },
+      }),
+    };
+    const geometry = new Geometry(attributes, sharp?.triangles ?? faces);
+    this.solid = new Mesh(geometry, clay(this.#uniforms, this.#pairs));
     this.solid.castsShadow = true;
     this.#own = look && new OwnSurface(look, this.#uniforms, space.base);
     this.object.add(this.solid, ...(this.#own ? [this.#own.object] : []));
@@ -238,13 +257,13 @@ export class Surface {
   /** A colour for every vertex. */
   paint(color: (vertex: number) => Color): void {
     for (let vertex = 0; vertex < this.space.vertices; vertex++) this.#put(vertex, color(vertex));
-    this.solid.geometry.changed("vertexColor");
+    this.#painted();
   }
 
   /** One colour for some vertices. */
   paintSome(vertices: Iterable<number>, color: Color): void {
     for (const vertex of vertices) this.#put(vertex, color);
-    this.solid.geometry.changed("vertexColor");
+    this.#painted();
   }
 
   #put(vertex: number, { r, g, b }: Color): void {
@@ -252,8 +271,15 @@ export class Surface {
     [data[3 * vertex], data[3 * vertex + 1], data[3 * vertex + 2]] = [r, g, b];
   }
 
+  /** Gives all sides of sharp edges the colours of their vertices. */
+  #painted(): void {
+    if (this.#points) copyRows(this.#colors.data, this.#points, this.space.vertices);
+    this.solid.geometry.changed("vertexColor");
+  }
+
   dispose(): void {
     this.#deformer.dispose();
+    this.#pairs?.dispose();
     this.#occlusion?.dispose();
     this.#own?.dispose();
     this.solid.geometry.dispose();

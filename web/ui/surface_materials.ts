@@ -18,11 +18,12 @@ export interface Looks {
   readonly pairs: Texture | null;
 }
 
-/** Clay in the colours of the vertices. */
-export function clay(uniforms: SurfaceUniforms): Material {
+/** Clay in the colours of the vertices; `pairs` if it has sharp edges. */
+export function clay(uniforms: SurfaceUniforms, pairs: Texture | null): Material {
   const color = new Color("#ffffff");
-  const looks = { color, roughness: CLAY_ROUGHNESS, alphaCutoff: 0, picture: null, pairs: null };
-  return litSurface(uniforms, looks, ["COLORS", "RAMPS"]);
+  const looks = { color, roughness: CLAY_ROUGHNESS, alphaCutoff: 0, picture: null, pairs };
+  const parts: Part[] = pairs ? ["POINTS", "CREASED"] : [];
+  return litSurface(uniforms, looks, [...parts, "COLORS", "RAMPS"]);
 }
 
 /** A material in the studio's light; `parts` are those of its vertices. */

@@ -24,8 +24,8 @@ export type SurfaceUniforms = {
 
 /** Parts of the shaders: COLORS has colours of vertices, and RAMPS those of displacements and strains. POINTS has points
  * with an attribute `ownVertex`; several points may have the same vertex of the surface. CREASED has their normals on
- * both sides of edges, from faces around a point: where these start among `ownPairs`, and how many there are. PICTURE
- * has a texture. MOVED is moved before what it lies on, or behind it. */
+ * both sides of edges, from faces around a point: where these start among `ownPairs`, and how many there are; a point
+ * without any has the normal of its vertex. PICTURE has a texture. MOVED is moved before what it lies on, or behind it. */
 export type Part = "COLORS" | "RAMPS" | "POINTS" | "CREASED" | "PICTURE" | "MOVED";
 
 /** The model's matrix is a motion and a scale, so that normals turn as places do. `ramp` goes from pale sand by coral to
@@ -67,17 +67,16 @@ vec3 ramp(float x) {
   return t < 0.33 ? mix(a, b, t / 0.33) : t < 0.7 ? mix(b, c, (t - 0.33) / 0.37) : mix(c, d, (t - 0.7) / 0.3);
 }
 vec3 normalOf(vec3 own) {
+  vec3 sum = texelFetch(shownNormals, cellOf(ownVertex), 0).xyz;
 #ifdef CREASED
-  vec3 sum = vec3(0.0);
+  if (ownRing.y > 0) sum = vec3(0.0);
   int width = textureSize(ownPairs, 0).x;
   for (int i = ownRing.x; i < ownRing.x + ownRing.y; i++) {
     ivec2 pair = texelFetch(ownPairs, ivec2(i % width, i / width), 0).xy;
     sum += cross(placeOf(pair.x) - own, placeOf(pair.y) - own);
   }
-  return sum;
-#else
-  return texelFetch(shownNormals, cellOf(ownVertex), 0).xyz;
 #endif
+  return sum;
 }
 void main() {
   ivec2 cell = cellOf(ownVertex);
