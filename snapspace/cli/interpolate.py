@@ -33,6 +33,7 @@ from .filling_options import check_unfilled, filling_options
 from .fit_cache import FitCache
 from .given_options import given_options
 from .options import FILE, SHARE, TET_COUNT, dask_option, json_option, shell_option, threads_option
+from .pose_differences import check_poses_differ
 from .pose_files import PoseOptions, PoseSet, read_poses
 from .printable import printable
 from .summary import print_summary
@@ -184,12 +185,11 @@ def interpolate(
     pose_set = read_poses(files, options, cache)
     print_fits(pose_set.fits)
     problem = InterpolationProblem(pose_set.poses, material=material, extrapolation=extrapolation)
-    if problem.spread <= 1e-10 * problem.mesh.diagonal:
+    try:
+        check_poses_differ(problem.spread, problem.mesh.diagonal)
+    except ValueError:
         cache.remove()
-        raise ValueError(
-            "all poses are equal up to rigid motions, so there is nothing to blend; poses must "
-            "differ by more than a rigid motion"
-        )
+        raise
     if save_poses is not None:
         _save_poses(save_poses, pose_set)
     source: dict[str, Any] = {

@@ -26,12 +26,14 @@ from ..mesh import (
 from ..mesh.correspondence import check_same_faces, check_same_tets
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from ..mesh.input_path import existing_file
+from ..mesh.inside_out import check_not_inside_out
 from ..problem import Poses, ShellPoses
 from ..registration import ScalePolicy
 from .console import notice
 from .files import SURFACE_INPUTS, TET_INPUTS
 from .filling_options import filled
 from .fit_cache import FitCache
+from .pose_differences import check_surfaces_differ
 from .pose_scales import notice_sizes, scaled_poses
 from .progress import step_progress
 from .shell_pose_files import read_shell_poses
@@ -157,6 +159,8 @@ def _from_surfaces(
     targets = scaled_poses(
         np.stack([vertices for vertices, _ in surfaces]), faces, names, policy=options.scale
     )
+    check_not_inside_out(targets, faces, names)
+    check_surfaces_differ(targets, faces)
     seconds: dict[str, float] = {}
     begin = time.perf_counter()
     mesh = _tets_of(files[0].name, targets[0], faces, options, cache)

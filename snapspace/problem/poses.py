@@ -126,6 +126,12 @@ class Poses(PoseShapes):
         for name, count, volumes in zip(
             self._names, self._inverted_tets, self._volumes, strict=True
         ):
+            if count == len(volumes) > 1:
+                raise ValueError(
+                    f"Poses: {name}: all {count} tets are inverted, so the pose is probably a "
+                    "mirror image of the body; mirror it back (for a mirrored motion of a "
+                    "symmetric body, also exchange the vertices of both sides)"
+                )
             if count:
                 first = np.flatnonzero(volumes < 0)[0]
                 raise ValueError(

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..input_error import InputError, fault_of
 from ..mesh import ShellMesh
 from ..mesh.correspondence import check_same_faces
+from ..mesh.inside_out import check_not_inside_out
 from .pose_shapes import PoseShapes, as_names, check_meshes, check_pose_count
 
 FloatArray = NDArray[np.float64]
@@ -36,8 +37,8 @@ class ShellPoses(PoseShapes):
     ------
     ValueError
         For fewer than two poses, wrong array shapes, names that do not match, coordinates that are
-        not finite, or a pose that is not a valid `ShellMesh`, of one component. The message names
-        the pose.
+        not finite, a pose that is not a valid `ShellMesh`, of one component, or a closed surface
+        that is inside out relative to the first. The message names the pose.
 
     Notes
     -----
@@ -59,6 +60,10 @@ class ShellPoses(PoseShapes):
         ]
         self._reference = meshes[0]
         _check_connected(self._reference)
+        try:
+            check_not_inside_out(self._shapes, self.triangles, self._names)
+        except ValueError as error:
+            raise ValueError(f"ShellPoses: {error}") from None
         self._volumes = np.stack([mesh.volumes for mesh in meshes])
         self._volumes.setflags(write=False)
 

@@ -84,6 +84,23 @@ def inverted(folder: Path) -> list[object]:
     return words
 
 
+def mirrored_tets(folder: Path) -> list[object]:
+    words = tets(folder)
+    write_raw(folder / "bent.mesh", bar_shapes()["bent"] * [-1, 1, 1], bar_mesh().tets)
+    return words
+
+
+def mirrored_surface(folder: Path) -> list[object]:
+    words = surfaces(folder)
+    vertices, faces = bar_surfaces()["bent"]
+    write_surface(folder / "bent.obj", vertices * [-1, 1, 1], faces)
+    return words
+
+
+def mirrored_shell(folder: Path) -> list[object]:
+    return [*mirrored_surface(folder)[:3], "--shell", 0.1]
+
+
 def flat(folder: Path) -> list[object]:
     words = tets(folder)
     shape = bar_shapes()["bent"] * [1, 1, 0]
@@ -159,6 +176,12 @@ CASES: dict[str, tuple[Case, str]] = {
     "vertex counts": (other_vertices, "bent: has 75 vertices, but rest has 74; export all poses"),
     "other faces": (other_faces, "twisted: face 4 has vertices "),
     "other faces counted": (other_faces, "; 2 of 144 faces differ: export all poses from one mesh"),
+    "mirrored tets": (
+        mirrored_tets,
+        "bent: all 192 tets are inverted, so the pose is probably a",
+    ),
+    "mirrored surface": (mirrored_surface, "bent: is inside out, probably a mirror image: its fac"),
+    "mirrored shell": (mirrored_shell, "ShellPoses: bent: is inside out, probably a mirror image"),
     "flat": (flat, "bent: 192 of 192 tets have no volume, the first is tet 0"),
     "nan": (nan, "bent.off: vertex 3 is not finite"),
     "no extent": (without_extent, "half of the edges of pose 1 have length zero"),

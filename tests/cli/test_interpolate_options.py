@@ -136,3 +136,19 @@ def test_equal_surfaces_are_refused(run: Run, tmp_path: Path) -> None:
     assert result.code == 2
     assert "poses must differ by more than a rigid motion" in result.err
     assert not list(tmp_path.glob("m.snapspace*"))  # nor the folder of fitted poses
+
+
+@pytest.mark.parametrize("words", [("--edge-length", 0.2), ("--shell", 0.1)])
+def test_equal_surfaces_of_few_digits_are_refused_before_they_are_filled(
+    run: Run, tmp_path: Path, words: tuple[object, ...]
+) -> None:
+    """The rounding errors of a file are no motion."""
+    vertices, faces = bar_surfaces()["rest"]
+    poses = [tmp_path / "a.obj", tmp_path / "b.obj"]
+    write_surface(poses[0], vertices, faces)
+    turned = moved(vertices.reshape(-1), random_rotation(), np.array([3.0, -9.0, 2.0]))
+    write_surface(poses[1], turned.reshape(-1, 3).round(7), faces)
+    result = run("interpolate", *poses, *words, *SMALL, "-o", tmp_path / "m.snapspace")
+    assert result.code == 2
+    assert "poses must differ by more than a rigid motion" in result.err
+    assert "filling" not in result.err and not list(tmp_path.glob("m.snapspace*"))
