@@ -517,9 +517,9 @@ class FittingSystem:
         Product of v (3n,) and the Hessian of the energy at u, whose tets are projected to positive semi-definite matrices.
         """
 
-    def fit(self, targets: NDArray[numpy.float64], *, deviation: float, first_stiffness: float, stretch: float, max_iterations: int, control: SolveControl) -> tuple[NDArray[numpy.float64], FitReport]:
+    def fit(self, targets: NDArray[numpy.float64], start: NDArray[numpy.float64], *, deviation: float, first_stiffness: float, stretch: float, max_iterations: int, control: SolveControl) -> tuple[NDArray[numpy.float64], FitReport]:
         """
-        Displacements (3n,) that move the surface points by the target displacements (s, 3), and a report.
+        Displacements (3n,) that move the surface points by the target displacements (s, 3), and a report. The fit starts at displacements (3n,) where the energy is finite.
         """
 
 def mode_gradients(vertices: NDArray[numpy.float64], modes: NDArray[numpy.float64], tets: NDArray[numpy.int32], *, shell: bool = False, threads: int) -> NDArray[numpy.float32]:

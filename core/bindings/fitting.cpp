@@ -58,17 +58,18 @@ DoublesOut hessian_product(const FittingSystem& self, const VectorIn& u, const V
 }
 
 std::pair<DoublesOut, FitReport> fit(const FittingSystem& self, const MatrixIn& targets,
-                                     double deviation, double first_stiffness, double stretch,
-                                     int max_iterations, const SolveControl& control) {
+                                     const VectorIn& start, double deviation,
+                                     double first_stiffness, double stretch, int max_iterations,
+                                     const SolveControl& control) {
   require(
       targets.shape(0) == static_cast<std::size_t>(self.springs.size()) && targets.shape(1) == 3,
       "targets must be (points, 3)");
   FitReport report;
-  std::vector<double> shape;
+  std::vector<double> shape = internal(self, start);
   {
     const ReleasedGil released;
     PoseFitter fitter(self, {deviation, first_stiffness, stretch, max_iterations});
-    report = fitter.fit(targets.data(), control);
+    report = fitter.fit(targets.data(), shape, control);
     shape = fitter.shape();
   }
   return {external(self, shape), report};
@@ -106,11 +107,11 @@ void bind_fitting(nb::module_& m) {
            nb::arg("stretch"),
            "Product of v (3n,) and the Hessian of the energy at u, whose tets are projected to "
            "positive semi-definite matrices.")
-      .def("fit", &fit, nb::arg("targets"), nb::kw_only(), nb::arg("deviation"),
+      .def("fit", &fit, nb::arg("targets"), nb::arg("start"), nb::kw_only(), nb::arg("deviation"),
            nb::arg("first_stiffness"), nb::arg("stretch"), nb::arg("max_iterations"),
            nb::arg("control"),
            "Displacements (3n,) that move the surface points by the target displacements (s, 3), "
-           "and a report.");
+           "and a report. The fit starts at displacements (3n,) where the energy is finite.");
 }
 
 }  // namespace snapspace

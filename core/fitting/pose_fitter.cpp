@@ -42,24 +42,25 @@ PoseFitter::PoseFitter(const FittingSystem& system, const FitOptions& options)
   energies_.resize(system.energy.tets());
 }
 
-FitReport PoseFitter::fit(const double* targets, const SolveControl& control) {
+FitReport PoseFitter::fit(const double* targets, const std::vector<double>& shape,
+                          const SolveControl& control) {
   const FlushDenormals flush;
   const auto begin = std::chrono::steady_clock::now();
   targets_ = targets;
-  start();
+  start(shape);
   while (!done_ && !control.cancelled) take_step(control);
   report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return report_;
 }
 
-/// Begins the first stage at the rest shape.
-void PoseFitter::start() {
+/// Begins the first stage.
+void PoseFitter::start(const std::vector<double>& shape) {
   report_ = {};
   report_.stages = 1;
   report_.stiffness = options_.first_stiffness;
   done_ = false;
-  std::fill(u_.begin(), u_.end(), 0.0);
-  std::fill(energies_.begin(), energies_.end(), 0.0);
+  u_ = shape;
+  energy_.evaluate(u_.data(), energies_, stresses_);
   set_limits();
   value_ = value_and_gradient(u_, gradient_);
   decrement_ = value_;

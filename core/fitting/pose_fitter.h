@@ -50,13 +50,15 @@ class PoseFitter {
   PoseFitter(const FittingSystem& system, const FitOptions& options);
 
   /// @param targets  displacements of the surface points, 3 per point
-  FitReport fit(const double* targets, const SolveControl& control);
+  /// @param shape    displacements of the vertices in the internal numbering, with finite energy
+  FitReport fit(const double* targets, const std::vector<double>& shape,
+                const SolveControl& control);
 
   /// Displacements in the internal numbering.
   [[nodiscard]] const std::vector<double>& shape() const { return u_; }
 
  private:
-  void start();
+  void start(const std::vector<double>& shape);
   void take_step(const SolveControl& control);
   double value_and_gradient(const std::vector<double>& u, std::vector<double>& gradient);
   double find_direction(const SolveControl& control);

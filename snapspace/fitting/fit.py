@@ -15,6 +15,7 @@ from ..blas import single_threaded_blas
 from ..interruptible import run_interruptible
 from ..mesh import TetMesh
 from ..mesh.embedded_surface import EmbeddedSurface
+from .moved_with_surface import moved_with_surface
 from .pose_fits import PoseFit, PoseFits
 from .stretches import stretches
 from .targets import checked_targets, point_areas, registered_targets
@@ -97,7 +98,8 @@ def fit_poses(
     The energy of a tet grows without bound towards |F|^2 + |F^-1|^2 - 6 = 100, so no stretch is
     above 10 or below 0.1. Where folds of a surface would stretch single tets forty times, the fit
     deviates a little from the surface instead. If the goal cannot be met within these bounds, the
-    pose is fitted with bounds of 100 and 0.01.
+    fit starts again with all vertices moved like the surface near them, if that shape is less
+    distorted. If it is still missed, the pose is fitted with bounds of 100 and 0.01.
     """
     surfaces, labels = checked_targets(mesh, surface, targets, names)
     _check_options(deviation, max_iterations, threads)
@@ -160,19 +162,41 @@ class _Fitting:
         moved = float(np.sqrt(self.areas @ (wanted**2).sum(axis=1) / self.areas.sum()))
         # a target may be the rest shape up to rounding, which does not count as motion
         share = max(SHARE_OF_MOTION * moved, 1e-6 * goal)
-        for stretch in STRETCHES:
-            u, report = self.system.fit(
+
+        def attempt(start: FloatArray, stretch: float) -> tuple[FloatArray, core.FitReport]:
+            return self.system.fit(
                 wanted,
+                start,
                 deviation=min(goal, share),
                 first_stiffness=FIRST_STIFFNESS / self.mesh.diagonal,
                 stretch=stretch,
                 max_iterations=self.max_iterations,
                 control=control,
             )
-            if report.status.name in ("converged", "cancelled"):
+
+        for stretch in STRETCHES:
+            u, report = attempt(np.zeros(self.mesh.vertices.size), stretch)
+            if not _ended(report):
+                near = self._moved(self.rest + wanted)
+                # a slender body that turns by more than half a turn may be caught in folds
+                if self._distortion(near, stretch) < self._distortion(u, stretch):
+                    again, other = attempt(near, stretch)
+                    if _ended(other) or other.deviation < report.deviation:
+                        u, report = again, other
+            if _ended(report):
                 break
         shape: FloatArray = self.mesh.vertices + u.reshape(-1, 3)
         return shape, self._report(name, shape, wanted, report)
+
+    def _moved(self, target: FloatArray) -> FloatArray:
+        """Displacements (3n,) of vertices that move with the surface near them."""
+        points = self.mesh.vertices
+        shape = moved_with_surface(points, self.rest, target, self.surface.faces)
+        return (shape - points).reshape(-1)
+
+    def _distortion(self, u: FloatArray, stretch: float) -> float:
+        """The energy at displacements (3n,), infinite if a tet is inverted."""
+        return self.system.energy(u, stretch=stretch)[0]
 
     def _report(
         self, name: str, shape: FloatArray, wanted: FloatArray, report: core.FitReport
@@ -191,6 +215,10 @@ class _Fitting:
             seconds=report.seconds,
             status=report.status.name,
         )
+
+
+def _ended(report: core.FitReport) -> bool:
+    return report.status.name in ("converged", "cancelled")
 
 
 def _check_options(deviation: float, max_iterations: int, threads: int | None) -> None:

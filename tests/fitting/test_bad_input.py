@@ -92,6 +92,7 @@ def test_the_core_checks_indices_and_shapes() -> None:
     with pytest.raises(ValueError, match=r"targets must be \(points, 3\)"):
         system.fit(
             REST[1:],
+            np.zeros(MESH.vertices.size),
             deviation=1e-3,
             first_stiffness=1e-2,
             stretch=10.0,
