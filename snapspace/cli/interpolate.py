@@ -256,7 +256,11 @@ def print_fits(fits: Sequence[PoseFit]) -> None:
     print_table(table)
     for fit in fits:
         if fit.status != "converged":
-            notice(f"notice: {fit.name} ended with {fit.status}, {fit.rms:.2g} from its surface")
+            notice(
+                f"notice: {fit.name} ended with {fit.status}, {fit.rms:.2g} from its surface, and "
+                "is blended as it was fitted; --save-poses DIR writes that shape, and --shell "
+                "THICKNESS blends surfaces without fits"
+            )
 
 
 def _save_poses(folder: Path, pose_set: PoseSet) -> None:

@@ -216,6 +216,7 @@ def test_a_fit_that_misses_its_surface_gives_a_notice(run: Run, tmp_path: Path) 
     assert fit["inverted_tets"] == 0
     wanted = f"notice: twisted ended with {fit['status']}, {fit['rms']:.2g} from its surface"
     assert wanted in result.err
+    assert "blended as it was fitted; --save-poses DIR writes that shape, and --shell" in result.err
 
 
 def test_threads_do_not_change_the_model(
