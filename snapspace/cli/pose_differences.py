@@ -25,7 +25,7 @@ def check_poses_differ(farthest: float, diagonal: float) -> None:
 def check_surfaces_differ(shapes: FloatArray, faces: NDArray[np.int32]) -> None:
     """As `check_poses_differ`, for surfaces (k, n, 3) that are not filled yet.
 
-    Filling takes a minute, and rounding errors of a fit look like a motion.
+    Filling may take minutes, and rounding errors of a fit look like a motion.
     """
     areas = point_areas(shapes[0], faces)
     if not areas.sum() > 0.0:

@@ -170,7 +170,10 @@ def test_a_sheet_that_cannot_be_filled_may_be_a_shell(
     words = ("-o", tmp_path / "sheet.snapspace")
     build = run("build", "--problem", problem(tmp_path), surface, *words)
     assert "encloses no volume" in build.error and advice in build.error
-    blend = run("interpolate", surface, surface, *words)
+    vertices, faces = read_surface(surface)
+    longer = tmp_path / "longer.obj"
+    write_surface(longer, vertices * [1.3, 1.0, 1.0], faces)
+    blend = run("interpolate", surface, longer, *words)
     assert "encloses no volume" in blend.error and advice in blend.error
 
 

@@ -32,12 +32,12 @@ REFUSED = {name: odd for name, odd in ODD.items() if odd.volume is None and odd.
 COARSE = SurfaceFilling(edge_length=0.1)
 
 
-def commands(file: Path) -> list[tuple[Any, ...]]:
-    """`build` and `interpolate` for a surface."""
+def commands(file: Path, pose: Path) -> list[tuple[Any, ...]]:
+    """`build` and `interpolate` for a surface and another pose of it."""
     problem, model = file.with_name("problem.json"), file.with_name("odd.snapspace")
     problem.write_text(json.dumps(problem_content()))
     build = ("build", file, "--problem", problem, "-o", model)
-    return [build, ("interpolate", file, file, "-o", model)]
+    return [build, ("interpolate", file, pose, "-o", model)]
 
 
 def dropped_on_a_page(file: Path) -> str:
@@ -87,9 +87,11 @@ def test_what_has_none_is_refused_everywhere(run: Run, tmp_path: Path, odd: Odd)
         COARSE.fill(*odd.surface, stage=lambda name, *_: stages.append(name))
     assert odd.said in str(caught.value)
     assert stages == ["filling"], "fTetWild could not help"
-    file = tmp_path / "odd.ply"
-    ss.write_surface(file, *odd.surface)
-    for words in commands(file):
+    file, pose = tmp_path / "odd.ply", tmp_path / "longer.ply"
+    vertices, faces = odd.surface
+    ss.write_surface(file, vertices, faces)
+    ss.write_surface(pose, vertices * [1.3, 1.0, 1.0], faces)
+    for words in commands(file, pose):
         assert odd.said in run(*words).error
     page = dropped_on_a_page(file)
     assert odd.said in page and str(tmp_path) not in page
@@ -99,7 +101,7 @@ def test_what_has_none_is_refused_everywhere(run: Run, tmp_path: Path, odd: Odd)
 def test_an_empty_file_is_refused_everywhere(run: Run, tmp_path: Path, suffix: str) -> None:
     file = tmp_path / f"empty{suffix}"
     file.write_bytes(b"")
-    for words in [("check", file), *commands(file)]:
+    for words in [("check", file), *commands(file, file)]:
         assert run(*words).error.startswith(f"{file}: it ")
     assert dropped_on_a_page(file).startswith(f"{file.name}: it ")
 
