@@ -62,7 +62,7 @@ def filled(
     check_installed(filling)
     stages: set[str] = set()
 
-    def stage(stage: str, *_: int) -> None:
+    def begun(stage: str, *_: int) -> None:
         if stage == EXACTLY and stage not in stages and not filling.exact:
             if is_sheet(vertices, faces):
                 why = "is open; fTetWild guesses its inside, in up to some minutes (a sheet such "
@@ -76,7 +76,7 @@ def filled(
     with spinner(f"filling {name} with tets"):
         try:
             with naming_shells(vertices, faces):
-                tets = filling.fill(vertices, faces, stage=stage)
+                tets = filling.fill(vertices, faces, stage=begun)
         except ValueError as error:
             raise ValueError(f"{name}: {error}") from None
     return tets, EXACTLY in stages

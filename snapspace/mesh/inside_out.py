@@ -8,6 +8,11 @@ from .arrays import FloatArray, IndexArray
 from .closed_surface import enclosed_volume
 from .edges import edges_of
 
+#: What to do with a mirror image.
+MIRROR_BACK = (
+    "mirror it back (for a mirrored motion of a symmetric body, also exchange the vertices of both "
+    "sides)"
+)
 #: Sheets that pass through themselves may enclose a little of the other sign.
 SHARE = 0.5
 
@@ -30,14 +35,12 @@ def check_not_inside_out(shapes: FloatArray, faces: IndexArray, names: Sequence[
         If the sign of the volume changes and at least half of its size remains. The message names
         the first such pose.
     """
-    edges = edges_of(faces)
-    if edges.balance.any() or (edges.uses % 2).any():
+    if edges_of(faces).balance.any():
         return
     first, *others = (enclosed_volume(shape, faces) for shape in shapes)
     for name, volume in zip(names[1:], others, strict=True):
         if volume * first < 0.0 and abs(volume) >= SHARE * abs(first):
             raise ValueError(
                 f"{name}: is inside out, probably a mirror image: its faces enclose a volume of "
-                f"{volume:g}, but those of {names[0]} {first:g}; mirror it back (for a mirrored "
-                "motion of a symmetric body, also exchange the vertices of both sides)"
+                f"{volume:g}, but those of {names[0]} {first:g}; {MIRROR_BACK}"
             )

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..input_error import InputError, fault_of
 from ..mesh import TetMesh, tet_volumes
 from ..mesh.correspondence import check_same_tets
+from ..mesh.inside_out import MIRROR_BACK
 from ..mesh.quality import flat_tets
 from .pose_shapes import PoseShapes, as_names, check_meshes, check_pose_count
 
@@ -129,8 +130,7 @@ class Poses(PoseShapes):
             if count == len(volumes) > 1:
                 raise ValueError(
                     f"Poses: {name}: all {count} tets are inverted, so the pose is probably a "
-                    "mirror image of the body; mirror it back (for a mirrored motion of a "
-                    "symmetric body, also exchange the vertices of both sides)"
+                    f"mirror image of the body; {MIRROR_BACK}"
                 )
             if count:
                 first = np.flatnonzero(volumes < 0)[0]
