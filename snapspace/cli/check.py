@@ -19,6 +19,9 @@ from .own_surface import is_plain
 from .progress import spinner
 
 FINE, FAULTS = 0, 1
+#: Thickness of a shell in the advice, as a share of the diagonal. With the default material, the
+#: thickness is only a factor.
+SHELL = 0.01
 
 
 @click.command(short_help="Say what is wrong with a surface or mesh, and mend it.")
@@ -88,6 +91,10 @@ def _suggestions(file: Path, report: SurfaceReport) -> list[tuple[str, list[str 
         commands.append(("mend it", ["check", file, "--fix", f"{file.stem}-mended.obj"]))
     if any(finding.details.get("sheet") for finding in report.findings):
         commands.append(("pose it as a thin shell, open as it is", ["view", file]))
+        thickness = f"{SHELL * report.diagonal:.2g}"
+        blend: list[str | Path] = ["interpolate", file, f"pose{file.suffix}", "--shell", thickness]
+        blend += ["-o", f"{file.stem}.snapspace"]
+        commands.append(("blend it with other poses as a thin shell", blend))
     return commands
 
 

@@ -19,7 +19,16 @@ LARGE_CHANGE = 1.05
 def scaled_poses(
     shapes: FloatArray, cells: NDArray[np.int32], names: Sequence[str], *, policy: ScalePolicy
 ) -> FloatArray:
-    """Poses (k, n, 3) of tets or triangles, scaled by the policy, with a notice for each."""
+    """Poses (k, n, 3) of tets or triangles, scaled by the policy, with a notice for each.
+
+    Raises ValueError for a pose without extent, and as `matched_scales`.
+    """
+    for name, shape in zip(names, shapes, strict=True):
+        if not np.ptp(shape, axis=0).any():
+            raise ValueError(
+                f"{name}: all {len(shape)} vertices are at one point, so the pose has no shape; "
+                "check that the file is of the object"
+            )
     scaled, factors = matched_scales(shapes, cells, policy=policy)
     for name, factor in zip(names, factors, strict=True):
         if factor != 1.0:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from ..counted import counted
 from ..mesh.arrays import FloatArray, IndexArray
 from ..mesh.edges import Edges
+from ..point_text import point_text
 from .cleaned import Cleaned
 from .components import face_components, orientation
 from .fill_holes import closable_holes
@@ -28,7 +29,9 @@ def edge_findings(vertices: FloatArray, faces: IndexArray, edges: Edges) -> list
     found: list[Finding] = []
     if (edges.uses == 1).any():
         oriented = np.where(turn[:, None], faces[:, ::-1], faces)  # as mending does it first
-        found.append(_holes(closable_holes(vertices, oriented), is_sheet(vertices, faces)))
+        diagonal = float(np.linalg.norm(np.ptp(vertices, axis=0)))
+        holes = closable_holes(vertices, oriented)
+        found.append(_holes(holes, is_sheet(vertices, faces), diagonal))
     if turn.any() or twisted.any():
         found.append(_orientation(turn, twisted))
     if fans:
@@ -107,10 +110,9 @@ def copy_findings(clean: Cleaned, unused: int) -> list[Finding]:
     return found
 
 
-def _holes(holes: list[tuple[Hole, IndexArray | None]], sheet: bool) -> Finding:
+def _holes(holes: list[tuple[Hole, IndexArray | None]], sheet: bool, diagonal: float) -> Finding:
     some = [
-        f"{hole.edges} edges, length {hole.length:.4g}, around "
-        f"({', '.join(f'{x:.4g}' for x in hole.center)})"
+        f"{hole.edges} edges, length {hole.length:.4g}, around {point_text(hole.center, diagonal)}"
         for hole, _ in holes[:3]
     ]
     more = f"; and {len(holes) - 3} more" if len(holes) > 3 else ""

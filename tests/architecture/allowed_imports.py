@@ -21,7 +21,7 @@ ALLOWED: dict[str, set[str]] = {
     "sampling": {"arguments"},
     "pictures": {"arguments", "disk", "extras"},
     "stuffing": {"arguments", "mesh"},
-    "doctor": {"counted", "mesh", "stopping"},
+    "doctor": {"counted", "mesh", "point_text", "stopping"},
     "filling": {
         "arguments",
         "counted",

@@ -50,6 +50,7 @@ def test_cloth_should_be_a_shell_and_not_be_mended(run: Run, tmp_path: Path) -> 
     assert "--fix" not in result.err
     assert "leave a sheet such as cloth open: it is a shell" in holes["cure"]
     assert f"snapspace view {file}" in result.err
+    assert f"snapspace interpolate {file} pose.obj --shell 0.0" in result.err
     fixed = json.loads(run("check", file, "--fix", tmp_path / "out.obj", "--json").out)
     assert fixed["mended"]["invented_faces"] == 0, "as the finding says"
 
