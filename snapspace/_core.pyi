@@ -171,6 +171,18 @@ class ScalarFactor:
         `solve_lanes` in single precision, for up to twice as many right-hand sides.
         """
 
+class FaceTree:
+    """
+    The triangles (f, 3) of a surface with vertices (n, 3), for searches of closest faces.
+    """
+
+    def __init__(self, vertices: NDArray[numpy.float64], faces: NDArray[numpy.int32]) -> None: ...
+
+    def closest(self, points: NDArray[numpy.float64], limit: float, threads: int = 0) -> tuple[NDArray[numpy.int32], NDArray[numpy.float64], NDArray[numpy.float64]]:
+        """
+        The face closest to each point (k, 3), the first of equally close ones, or -1 if none is within the limit; its distance, or inf; and the closest point on it (k, 3), or nan. threads: 0 for all.
+        """
+
 class InverseKind(enum.Enum):
     """How the inverse of a scalar matrix is applied."""
 

@@ -5,6 +5,7 @@ namespace snapspace {
 void bind_energy(nb::module_& m);
 void bind_stars(nb::module_& m);
 void bind_cholesky(nb::module_& m);
+void bind_face_tree(nb::module_& m);
 void bind_multigrid(nb::module_& m);
 void bind_rows(nb::module_& m);
 void bind_snapshots(nb::module_& m);
@@ -29,6 +30,7 @@ void bind_all(nb::module_& m) {
   bind_stars(m);
   bind_energy(m);
   bind_cholesky(m);
+  bind_face_tree(m);
   bind_multigrid(m);
   bind_rows(m);
   bind_snapshots(m);

@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..arguments import is_number, shown
 from ..counted import counted
-from ..doctor import mend_surface
 from ..doctor.edge_findings import DUST
+from ..doctor.mend_surface import mend_surface
 from ..doctor.parts_apart import parts_apart
 from ..input_error import InputError
 from ..mesh import MeshNotice, compact_surface

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import _core as core
 from .arrays import FloatArray, IndexArray
-from .closest_point import closest_on_triangles
-from .tet_search import closest_faces
 
 
 def closest_corners(
@@ -29,9 +28,7 @@ def closest_corners(
     ndarray of int, (k,)
         Indices of vertices.
     """
-    triangles = vertices[faces]
-    face, _ = closest_faces(vertices, faces, points, limit=np.inf)
-    feet = closest_on_triangles(points, triangles[face])
-    away = np.linalg.norm(triangles[face] - feet[:, None], axis=2)
+    face, _, feet = core.FaceTree(vertices, faces).closest(points, np.inf)
+    away = np.linalg.norm(vertices[faces[face]] - feet[:, None], axis=2)
     corners: NDArray[np.intp] = faces[face, away.argmin(axis=1)].astype(np.intp)
     return corners

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
+from .. import _core as core
 from .arrays import FloatArray, IndexArray
-from .box_tree import BoxTree
-from .closest_point import closest_on_triangles
 from .edges import edges_of
-from .least_of_each import least_of_each
 
-_BLOCK = 4096  # points at a time: their candidates fit into the cache
 _EDGE = 1e-7  # barycentric coordinates below this are on an edge or at a corner
 
 
@@ -34,8 +30,7 @@ class SignedDistance:
 
     def __init__(self, vertices: FloatArray, faces: IndexArray) -> None:
         self._faces, self._corners = faces, vertices[faces]
-        self._tree = BoxTree(self._corners.min(axis=1), self._corners.max(axis=1))
-        self._nearest = cKDTree(vertices)
+        self._tree = core.FaceTree(vertices, faces)
         self._face_normals = _unit(
             np.cross(
                 self._corners[:, 1] - self._corners[:, 0], self._corners[:, 2] - self._corners[:, 0]
@@ -48,27 +43,12 @@ class SignedDistance:
 
     def __call__(self, points: FloatArray) -> FloatArray:
         """Distances of points (k, 3), as (k,)."""
-        # the closest vertex bounds the distance of the closest face from above
-        reach = np.asarray(self._nearest.query(points)[0]) * (1.0 + 1e-12)
-        distances = np.empty(len(points))
-        for start in range(0, len(points), _BLOCK):
-            block = slice(start, start + _BLOCK)
-            distances[block] = self._block_distances(points[block], reach[block])
-        return distances
+        face, distances, feet = self._tree.closest(points, np.inf)
+        outward = ((points - feet) * self._normals(face, feet)).sum(axis=1) >= 0
+        signed: FloatArray = np.where(outward, distances, -distances)
+        return signed
 
-    def _block_distances(self, points: FloatArray, reach: FloatArray) -> FloatArray:
-        """Distances (k,) of points whose closest face is within `reach` (k,)."""
-        point, face = self._tree.within(points, reach)
-        closest = closest_on_triangles(points[point], self._corners[face])
-        squared = ((closest - points[point]) ** 2).sum(axis=1)
-        best = least_of_each(point, squared, face)
-        face, closest = face[best], closest[best]
-        normals = self._normals(face, closest)
-        outward = np.einsum("ij,ij->i", points - closest, normals) >= 0
-        distances: FloatArray = np.where(outward, 1.0, -1.0) * np.sqrt(squared[best])
-        return distances
-
-    def _normals(self, face: NDArray[np.intp], closest: FloatArray) -> FloatArray:
+    def _normals(self, face: IndexArray, closest: FloatArray) -> FloatArray:
         """Normals (k, 3) of the face, edge or vertex that each closest point is on."""
         on = _barycentric(self._corners[face], closest) > _EDGE
         normals = self._face_normals[face]

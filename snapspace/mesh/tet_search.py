@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.spatial import cKDTree
 
+from .. import _core as core
 from .arrays import FloatArray, IndexArray
 from .box_tree import BoxTree
-from .closest_point import closest_on_triangles
 from .least_of_each import Integers, least_of_each
 from .surface import compact_surface
 from .tet_mesh import TetMesh
@@ -74,7 +73,7 @@ def containing_tets(mesh: TetMesh, points: FloatArray) -> tuple[Integers, FloatA
 
 def closest_boundary_faces(
     mesh: TetMesh, points: FloatArray, *, limit: float
-) -> tuple[Integers, FloatArray]:
+) -> tuple[IndexArray, FloatArray]:
     """The boundary face closest to each point.
 
     Parameters
@@ -86,59 +85,18 @@ def closest_boundary_faces(
 
     Returns
     -------
-    faces : ndarray of int, (k,)
+    faces : ndarray of int32, (k,)
         Rows of `mesh.surface`; -1 if no face is within the limit; the first face at a common edge.
     distances : ndarray, (k,)
         Distance to the face; inf if there is none.
     """
-    return closest_faces(*compact_surface(mesh.vertices, mesh.surface), points, limit=limit)
-
-
-def closest_faces(
-    vertices: FloatArray, faces: IndexArray, points: FloatArray, *, limit: float
-) -> tuple[Integers, FloatArray]:
-    """The face of a surface closest to each point; returns as `closest_boundary_faces`.
-
-    Parameters
-    ----------
-    vertices : ndarray, (s, 3)
-        Each belongs to a face.
-    faces : ndarray of int, (f, 3)
-    points : ndarray, (k, 3)
-    limit : float
-        Largest distance of interest.
-    """
-    return FaceSearch(vertices, faces).closest(points, limit=limit)
-
-
-class FaceSearch:
-    """`closest_faces` for several sets of points and the same surface."""
-
-    def __init__(self, vertices: FloatArray, faces: IndexArray) -> None:
-        self.triangles = vertices[faces]
-        self._tree = BoxTree(self.triangles.min(axis=1), self.triangles.max(axis=1))
-        self._vertices = cKDTree(vertices)
-
-    def closest(self, points: FloatArray, *, limit: float = np.inf) -> tuple[Integers, FloatArray]:
-        """The closest face of each point, and its distance, as `closest_faces`."""
-        # the closest vertex bounds the distance of the closest face from above
-        reach, _ = self._vertices.query(points)
-        reach = np.minimum(reach * (1.0 + _ROUNDING), limit)
-        nearest, distances = np.full(len(points), -1), np.full(len(points), np.inf)
-        for start in range(0, len(points), _BLOCK):
-            here = points[start : start + _BLOCK]
-            point, face = self._tree.within(here, reach[start : start + _BLOCK])
-            offset = closest_on_triangles(here[point], self.triangles[face]) - here[point]
-            distance = np.linalg.norm(offset, axis=1)
-            best = least_of_each(point, distance, face)
-            best = best[distance[best] <= limit]
-            nearest[start + point[best]] = face[best]
-            distances[start + point[best]] = distance[best]
-        return nearest, distances
+    surface = core.FaceTree(*compact_surface(mesh.vertices, mesh.surface))
+    faces, distances, _ = surface.closest(points, limit)
+    return faces, distances
 
 
 def least_extrapolated(
-    mesh: TetMesh, points: FloatArray, faces: Integers
+    mesh: TetMesh, points: FloatArray, faces: IndexArray
 ) -> tuple[Integers, FloatArray]:
     """The tet around a boundary face that needs the smallest weights for a point.
 

@@ -6,10 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
 
+from .. import _core as core
 from ..mesh import MirrorPlane, compact_surface
 from ..mesh.arrays import as_indices, as_points
-from ..mesh.closest_point import closest_on_triangles
-from ..mesh.tet_search import FaceSearch
 from ..mesh.validation import check_indices
 from .surface_points import even_directions, even_points
 
@@ -118,7 +117,7 @@ class _Search:
         )
         self._near = cKDTree(self._dense)
         self._center = self._dense.mean(axis=0)
-        self._faces = FaceSearch(points, own)
+        self._triangles, self._faces = corners, core.FaceTree(points, own)
 
     def across(self, normal: FloatArray) -> MirrorPlane:
         """The best place of a plane with a normal."""
@@ -170,10 +169,10 @@ class _Search:
 
     def _refined(self, plane: Plane, *, turning: bool = True) -> MirrorPlane:
         """A plane improved by Gauss-Newton, as long as that helps; it may keep its normal."""
-        best, nearest = self._measured(plane)
+        best, nearest, feet = self._measured(plane)
         for _ in range(_STEPS):
-            plane = self._step(plane, nearest, turning=turning)
-            found, nearest = self._measured(plane)
+            plane = self._step(plane, nearest, feet, turning=turning)
+            found, nearest, feet = self._measured(plane)
             gain = 1.0 - _deviation(found) / max(_deviation(best), 1e-300)
             if gain > 0:
                 best = found
@@ -181,12 +180,11 @@ class _Search:
                 break
         return best
 
-    def _step(self, plane: Plane, nearest: NDArray[np.intp], *, turning: bool) -> Plane:
+    def _step(self, plane: Plane, nearest: Indices, feet: FloatArray, *, turning: bool) -> Plane:
         """A Gauss-Newton step for the distances of mirrored points to the planes of faces."""
         normal, offset = plane
         images = _images(self._fine, plane)
-        triangles = self._faces.triangles[nearest]
-        feet = closest_on_triangles(images, triangles)
+        triangles = self._triangles[nearest]
         across = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
         size = np.linalg.norm(across, axis=1, keepdims=True)
         across = np.divide(across, size, out=np.zeros_like(across), where=size > 0)
@@ -214,14 +212,14 @@ class _Search:
         other = self.across(np.eye(3)[axis])
         return other if _deviation(other) <= _WORSE * _deviation(plane) + _EXACT else plane
 
-    def _measured(self, plane: Plane) -> tuple[MirrorPlane, NDArray[np.intp]]:
-        """The plane with its deviation, and the face nearest to each mirrored point."""
-        nearest, away = self._faces.closest(_images(self._fine, plane))
+    def _measured(self, plane: Plane) -> tuple[MirrorPlane, Indices, FloatArray]:
+        """The plane with its deviation; each mirrored point's nearest face and the point on it."""
+        nearest, away, feet = self._faces.closest(_images(self._fine, plane), np.inf)
         normal, offset = plane
         point = self._center + (offset - normal @ self._center) * normal
         normal = normal * np.sign(normal[np.argmax(np.abs(normal))])
         deviation = float(np.sqrt((away**2).mean())) / self._diagonal
-        return MirrorPlane(tuple(normal.tolist()), tuple(point.tolist()), deviation), nearest
+        return MirrorPlane(tuple(normal.tolist()), tuple(point.tolist()), deviation), nearest, feet
 
 
 def _deviation(plane: MirrorPlane) -> float:

@@ -16,7 +16,7 @@ ALLOWED: dict[str, set[str]] = {
     "blas": {"stopping"},
     "stopping": set(),
     "interruptible": {"_core", "stopping"},
-    "mesh": {"arguments", "counted", "disk", "input_error", "notice"},
+    "mesh": {"_core", "arguments", "counted", "disk", "input_error", "notice"},
     "registration": {"arguments", "blas", "mesh"},
     "sampling": {"arguments"},
     "pictures": {"arguments", "disk", "extras"},
@@ -110,7 +110,7 @@ ALLOWED: dict[str, set[str]] = {
         "reduction",
         "subspace",
     },
-    "symmetry": {"arguments", "mesh", "problem", "reduction"},
+    "symmetry": {"_core", "arguments", "mesh", "problem", "reduction"},
     "session": {
         "arguments",
         "_core",

@@ -13,7 +13,7 @@ ALLOWED: dict[str, set[str]] = {
     "element": set(),
     "material": {"element", "simd"},
     "memory": set(),
-    "mesh": {"element", "memory"},
+    "mesh": {"element", "memory", "threads"},
     "simd": set(),
     "threads": set(),
     "online": {"element", "material", "simd"},

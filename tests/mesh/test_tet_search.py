@@ -6,18 +6,18 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.optimize import nnls
 from scipy.spatial import Delaunay
 
 from snapspace.mesh import TetMesh, repair_tets
 from snapspace.mesh.box_tree import BoxTree
-from snapspace.mesh.closest_point import closest_on_triangles
 from snapspace.mesh.tet_search import (
     barycentric,
     closest_boundary_faces,
     containing_tets,
     least_extrapolated,
 )
+
+from .face_distances import distances_from_faces
 
 SEEDS = st.integers(0, 2**32 - 1)
 
@@ -45,31 +45,6 @@ def test_the_tree_finds_what_trying_every_box_finds(seed: int, boxes: int) -> No
     assert sorted([p, b] for p, b in zip(point, box, strict=True)) == expected.tolist()
 
 
-def closest_by_optimisation(point: np.ndarray, triangle: np.ndarray) -> float:
-    """Distance by non-negative least squares; a heavy equation makes the weights sum to one."""
-    heavy = 1e6
-    system = np.vstack([(triangle - point).T, np.full(3, heavy)])
-    weights, _ = nnls(system, np.array([0.0, 0.0, 0.0, heavy]))
-    return float(np.linalg.norm(weights / weights.sum() @ triangle - point))
-
-
-@settings(max_examples=40)
-@given(SEEDS)
-def test_closest_points_of_triangles(seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    points, triangles = rng.normal(size=(20, 3)), rng.normal(size=(20, 3, 3))
-    closest = closest_on_triangles(points, triangles)
-    distance = np.linalg.norm(closest - points, axis=1)
-    oracle = [closest_by_optimisation(p, t) for p, t in zip(points, triangles, strict=True)]
-    assert distance == pytest.approx(np.array(oracle), abs=1e-6)
-
-
-def test_triangles_without_area_are_segments_or_points() -> None:
-    segment = np.array([[[0, 0, 0], [1, 0, 0], [3, 0, 0]], [[2, 2, 2]] * 3], dtype=float)
-    points = np.array([[2.5, 1.0, 0.0], [0.0, 0.0, 0.0]])
-    assert closest_on_triangles(points, segment).tolist() == [[2.5, 0, 0], [2, 2, 2]]
-
-
 @settings(max_examples=15)
 @given(SEEDS)
 def test_containing_tets_are_those_of_trying_every_tet(seed: int) -> None:
@@ -92,16 +67,13 @@ def test_containing_tets_are_those_of_trying_every_tet(seed: int) -> None:
 def test_closest_faces_are_those_of_trying_every_face(seed: int) -> None:
     rng = np.random.default_rng(seed)
     mesh = random_mesh(rng)
-    triangles = mesh.vertices[mesh.surface]
     points = 2 * rng.normal(size=(50, 3))
     faces, distances = closest_boundary_faces(mesh, points, limit=1.5)
-    for point, face, distance in zip(points, faces, distances, strict=True):
-        to_point = closest_on_triangles(point[None].repeat(len(triangles), 0), triangles) - point
-        every = np.linalg.norm(to_point, axis=1)
-        if face < 0:
-            assert every.min() > 1.5 and distance == np.inf
-        else:
-            assert every[face] == every.min() == distance
+    every = distances_from_faces(points, mesh.vertices, mesh.surface)
+    near = every.min(axis=1) <= 1.5
+    assert np.array_equal(faces >= 0, near) and (distances[~near] == np.inf).all()
+    assert distances[near] == pytest.approx(every.min(axis=1)[near], rel=1e-12)
+    assert every[near, faces[near]] == pytest.approx(distances[near], rel=1e-12)
 
 
 def test_the_least_extrapolated_tet_is_around_the_face() -> None:
