@@ -53,10 +53,10 @@ def test_validations_print_their_errors(posing_snapshots: Snapshots) -> None:
     assert repr(ErrorCurve(np.array([5, 20]), (coarse, fine))) == (
         "ErrorCurve(median errors of 3 samples: 0.5 at d = 5, 0.02 at d = 20)"
     )
-    parts = (np.full(3, share) for share in (0.002, 0.008, 0.001, 0.0082, 0.0091234))
+    parts = (np.full(3, share) for share in (0.002, 0.008, 0.001, 0.0, 0.0082, 0.0091234))
     assert repr(ErrorSplit(*parts)) == (
         "ErrorSplit(medians of 3 samples: error 0.00912, subspace 0.002, stiffness 0.008, "
-        "cubature 0.001)"
+        "cubature 0.001, minimum 0)"
     )
 
 

@@ -15,6 +15,7 @@ from ..reduction import InterpolationModel, PosingModel
 from ..validation import PARTS, ErrorSplit, NextOption, Validation, next_option, split_errors
 from .console import notice
 from .next_build import next_build
+from .outliers import CURE, OTHER_MINIMUM
 from .progress import spinner
 
 #: Number of full solutions whose errors are split; advice needs only the largest part.
@@ -46,6 +47,11 @@ class Advice:
 
     def print_notices(self) -> None:
         """Prints the parts of the error, and the calls in Python if there is no command."""
+        if self.split.largest == "minimum":
+            notice(
+                f"notice: most frames are not near the full solution, but {OTHER_MINIMUM}; {CURE}; "
+                "in Python, `session.solve_anew()` looks for a lower one"
+            )
         parts = ", ".join(
             f"{name} {100 * np.median(getattr(self.split, name)):.2g} %" for name in PARTS
         )

@@ -16,16 +16,17 @@ from ..model_file import check_model_path, load
 from ..problem import is_quartic
 from ..reduction import STORED_ENERGIES, Energy, PosingModel
 from .accurate_pipeline import chosen_build
-from .box_size import notice_wide_box
 from .build_advice import build_advice
 from .choices import MOTION_SAMPLINGS, Choices, choice_options
 from .console import print_json, print_next
 from .dask_cluster import dask_executor
 from .energy import EnergyChoice
 from .filling_options import filling_options
+from .first_motion import first_motion
 from .given_options import given_options
 from .options import FILE, TET_COUNT, dask_option, json_option, shell_option, threads_option
 from .problem_input import problem_input
+from .problem_notices import notice_odd_problem
 from .summary import print_summary
 from .target_error import MOTIONS_DECIDING, decided_by_hand, notice_decided, target_option
 
@@ -120,7 +121,7 @@ def build(
         thickness=thickness,
     )
     problem, source = given.problem, given.source
-    notice_wide_box(problem)
+    notice_odd_problem(problem)
     quartic = is_quartic(problem)
     by_hand = decided_by_hand(exact=quartic, deciding=MOTIONS_DECIDING)
     dimension = None if choices.energy_fraction else choices.dimension or DIMENSION
@@ -152,11 +153,10 @@ def build(
     print_summary(built, include_unconverged=choices.include_unconverged)
     folders = [file.parent for file in (problem_file, mesh) if file is not None]
     better = build_advice(built, folders=folders, threads=threads)
-    turn = ["--handle", problem.handles.names[1], "--euler", "0,0,20", "-o", "posed.obj"]
     suggestions: list[tuple[str, list[str | Path]]] = [
         ("drag it in the browser", ["view", output]),
         ("how far it is from the full solution", ["validate", output]),
-        ("one pose", ["pose", output, *turn]),
+        ("one pose", ["pose", output, *first_motion(problem), "-o", "posed.obj"]),
     ]
     print_next([*suggestions, *better])
     if as_json:

@@ -13,6 +13,9 @@ _MEAN, _MEDIANS = 0.02, 3.0
 #: Motions with this error look wrong. If the projection error is a tenth of it, the subspace is not
 #: the cause.
 _FAR, _SHARE = 0.1, 0.1
+#: Why frames are at other minima, and what helps.
+OTHER_MINIMUM = "at another minimum of the energy, for example because a thin part buckles"
+CURE = "make the box of motions smaller, or put a handle on the part that buckles"
 
 
 def notice_outliers(validation: Validation) -> None:
@@ -29,10 +32,7 @@ def notice_outliers(validation: Validation) -> None:
     snapped = far & (validation.projection_error < _SHARE * errors)
     cause, cure = "", "give a smaller --target-error, or make the box of motions smaller"
     if 2 * snapped.sum() > far.sum():
-        cause = (
-            ", probably at another minimum of the energy, for example because a thin part buckles"
-        )
-        cure = "make the box of motions smaller, or put a handle on the part that buckles"
+        cause, cure = f", probably {OTHER_MINIMUM}", CURE
     notice(
         f"notice: {int(far.sum())} of {len(errors)} unseen motions are more than "
         f"{in_percent(_FAR)} off, at most {in_percent(float(errors.max()))}{cause}; {cure}"

@@ -24,6 +24,7 @@ _PARTS = {
     "subspace": "subspace: shapes that it cannot represent",
     "stiffness": "stiffness: it cannot relax as the full mesh does",
     "cubature": "cubature: the energy of only a few tets",
+    "minimum": "minimum: frames are at another one",
 }
 
 

@@ -8,6 +8,7 @@ from .polish import Polished
 from .posing_session import PosingSession
 from .predictions import predicted_solutions
 from .session import Session
+from .solved_from import solved_from
 
 __all__ = [
     "BlendingSession",
@@ -18,4 +19,5 @@ __all__ = [
     "Session",
     "mirror_pose",
     "predicted_solutions",
+    "solved_from",
 ]

@@ -32,7 +32,7 @@ MOST_EXACT = 60
 
 @dataclass(frozen=True)
 class NextOption:
-    """The largest part of a model's error, and what to build next to reduce it.
+    """The largest part of a model's error that a build can reduce, and what to build next for it.
 
     part : "subspace", "stiffness" or "cubature", see `ErrorSplit`
     samples, dimension : those of the model if only its tets are too few, otherwise larger ones
@@ -74,7 +74,9 @@ class NextOption:
 
 
 def next_option(model: ReducedModel, split: ErrorSplit) -> NextOption:
-    """The option that reduces the largest part of the error.
+    """The option that reduces the largest part of the error that a build can reduce.
+
+    A build cannot move a frame to another minimum of the energy, see `ErrorSplit`.
 
     Parameters
     ----------
@@ -97,7 +99,7 @@ def next_option(model: ReducedModel, split: ErrorSplit) -> NextOption:
     require_type("next_option", "split", split, ErrorSplit, "give that of split_errors")
     problem, cubature = model.problem, model.cubature
     tets = None if cubature is None else len(cubature.tets)
-    part, solved = split.largest, max(_solved_samples(model), model.dimension)
+    part, solved = split.largest_built, max(_solved_samples(model), model.dimension)
     method: Method = "sobol"
     usual = default_tets(model.dimension, shell=has_hinges(problem))
     if isinstance(problem, InterpolationProblem):

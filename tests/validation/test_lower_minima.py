@@ -63,3 +63,15 @@ def test_a_validation_compares_with_the_lowest(strut: ss.PosingModel) -> None:
     again = validate(strut, reference=first.reference)
     np.testing.assert_array_equal(first.error, again.error)
     assert with_lower_minima(strut, first.reference, threads=1) == (first.reference, 0)
+
+
+def test_another_minimum_is_no_error_of_the_cubature(strut: ss.PosingModel) -> None:
+    """From the full solution the reduced solve stays beside it; the frame is at the other side."""
+    other = buckled(strut, TURN, start=buckled(strut, -TURN))
+    split = ss.split_errors(strut, other, threads=1)
+    assert split.error[0] > 0.5 and split.minimum[0] > 0.5
+    assert split.cubature[0] < 0.1 and split.error_of_all_tets[0] < 0.1
+    assert split.largest == "minimum" and split.largest_built != "minimum"
+    assert ss.next_option(strut, split).part == split.largest_built
+    lowest = ss.split_errors(strut, buckled(strut, TURN), threads=1)
+    assert lowest.minimum[0] == 0.0
