@@ -46,7 +46,7 @@ def build_advice(built: Built, *, folders: Sequence[Path], threads: int | None) 
     _notice_inverted_samples(built)
     _notice_inverted_frames(built.validation)
     if isinstance(built.model.problem, PosingProblem):
-        notice_outliers(built.validation)
+        notice_outliers(built.model, built.validation)
     if "accurate" in built.model.provenance:  # the error is reported already
         return []
     return _error_advice(built, built.validation, folders, threads)

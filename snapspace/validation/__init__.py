@@ -6,6 +6,7 @@ from .frame_errors import projection_errors, solution_errors, unseen_errors
 from .given_reference import check_reference
 from .lower_minima import with_lower_minima
 from .next_option import FACTOR, NextOption, needs_advice, next_option
+from .other_minima import other_minima
 from .unseen import REFERENCE_TOLERANCE, reference_options, solved_reference, unseen_parameters
 from .validate import validate
 from .validation import Validation
@@ -23,6 +24,7 @@ __all__ = [
     "error_curve",
     "needs_advice",
     "next_option",
+    "other_minima",
     "projection_errors",
     "reference_options",
     "solution_errors",

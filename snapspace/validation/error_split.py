@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 
 from ..mesh import mass_norms
 from ..reduction import ReducedModel
-from ..session import solved_from
 from ..snapshots import Snapshots
 from ..thread_count import checked_threads
 from .given_reference import check_reference
-from .lower_minima import APART
+from .other_minima import frame_and_near
 from .restricted_energy import RestrictedEnergy
 
 FloatArray = NDArray[np.float64]
@@ -120,14 +119,9 @@ def split_errors(
     parts = np.empty((len(rows), 6))
     samples = zip(parts, reference.parameters, rows, projections, strict=True)
     for target, w, row, projection in samples:
-        session.reset()
-        session.set_parameters(w)
-        reduced = session.q.copy()
         miss = row - (subspace.shape(projection) - subspace.tau)
         size, least = mass_norms(subspace.mass, np.stack([row, miss]))
-        near = solved_from(session, projection)
-        if np.linalg.norm(near - reduced) <= APART * size:
-            near = reduced  # the same minimum, to the tolerance of two solves
+        reduced, near = frame_and_near(session, w, projection, size)
         every = near
         if model.cubature is not None:
             energy = RestrictedEnergy(problem, subspace, w, threads=threads)

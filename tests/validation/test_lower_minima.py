@@ -7,7 +7,7 @@ import pytest
 
 import snapspace as ss
 from snapspace.generators import bar
-from snapspace.validation import solved_reference, validate, with_lower_minima
+from snapspace.validation import other_minima, solved_reference, validate, with_lower_minima
 
 
 @pytest.fixture(scope="module")
@@ -73,5 +73,8 @@ def test_another_minimum_is_no_error_of_the_cubature(strut: ss.PosingModel) -> N
     assert split.cubature[0] < 0.1 and split.error_of_all_tets[0] < 0.1
     assert split.largest == "minimum" and split.largest_built != "minimum"
     assert ss.next_option(strut, split).part == split.largest_built
-    lowest = ss.split_errors(strut, buckled(strut, TURN), threads=1)
-    assert lowest.minimum[0] == 0.0
+    lowest = buckled(strut, TURN)
+    assert ss.split_errors(strut, lowest, threads=1).minimum[0] == 0.0
+    assert other_minima(strut, other, [0]).tolist() == [True]
+    assert other_minima(strut, lowest, [0]).tolist() == [False]
+    assert other_minima(strut, lowest, []).tolist() == []
