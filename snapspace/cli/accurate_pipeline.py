@@ -23,6 +23,7 @@ from .first_frame import check_first_frame
 from .pipeline import Built, build_model, report_kept_samples, stage
 from .progress import spinner
 from .recipe import Recipe, made_by
+from .units import in_percent
 from .unseen import judged, unseen_record
 
 
@@ -159,8 +160,8 @@ def _notice_missed_target(built: AccurateModel[Any], budget: float | None) -> No
     if budget is not None and len(built.snapshots) < built.most_samples:
         more = "raise --budget"
     notice(
-        f"notice: unseen {step.unseen} are {100 * step.error:.2g} % off in the {step.typical}, "
-        f"more than the {100 * built.target:.2g} % of --target-error; more than "
+        f"notice: unseen {step.unseen} are {in_percent(step.error)} off in the {step.typical}, "
+        f"more than the {in_percent(built.target)} of --target-error; more than "
         f"{len(built.snapshots)} samples or {built.model.dimension} dimensions are needed: {more}, "
         f"or {cure}"
     )

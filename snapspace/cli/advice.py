@@ -17,6 +17,7 @@ from .console import notice
 from .next_build import next_build
 from .outliers import CURE, OTHER_MINIMUM
 from .progress import spinner
+from .units import in_percent
 
 #: Number of full solutions whose errors are split; advice needs only the largest part.
 SPLIT = 5
@@ -53,7 +54,7 @@ class Advice:
                 "in Python, `session.solve_anew()` looks for a lower one"
             )
         parts = ", ".join(
-            f"{name} {100 * np.median(getattr(self.split, name)):.2g} %" for name in PARTS
+            f"{name} {in_percent(float(np.median(getattr(self.split, name))))}" for name in PARTS
         )
         notice(
             f"notice: {self.option.reason}; medians of the error's parts over "

@@ -17,6 +17,7 @@ from .console import notice
 from .mesh_info import SLIVER
 from .outliers import notice_outliers
 from .pipeline import Built
+from .units import in_percent
 
 #: Number of samples in which inverted tets are counted.
 LOOKED_AT = 8
@@ -61,8 +62,8 @@ def _error_advice(
     if error <= plan.target:
         return []
     notice(
-        f"notice: unseen {plan.unseen_name} are {100 * error:.2g} % off in the "
-        f"{plan.typical_name}, more than the {100 * plan.target:.2g} % of default builds"
+        f"notice: unseen {plan.unseen_name} are {in_percent(error)} off in the "
+        f"{plan.typical_name}, more than the {in_percent(plan.target)} of default builds"
     )
     split = split_of_some(built.model, validation, threads=threads)
     if split is None:
@@ -86,7 +87,7 @@ def _notice_inverted_samples(built: Built) -> None:
             "`snapspace check` counts: make a mesh without them"
         )
     else:
-        cure = "make the box of motions smaller, or the handles larger"
+        cure = "make the box of motions smaller"
         if is_quartic(problem):
             cure += ", or use the material stable-neo-hookean, which resists inversion"
     notice(
@@ -111,7 +112,7 @@ def _notice_inverted_frames(validation: Validation) -> None:
     """A notice if most reduced solutions have more inverted tets than the full ones."""
     full = np.array([report.inverted_tets for report in validation.reference.reports])
     added = validation.inverted_tets - full
-    if np.median(added) <= 0:
+    if np.median(added) < 1:
         return
     notice(
         f"notice: reduced solutions of unseen samples have {np.median(added):.0f} more inverted "

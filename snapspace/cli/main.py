@@ -111,16 +111,21 @@ def _usage(error: click.ClickException) -> str:
 
 @contextmanager
 def _notices() -> Iterator[None]:
-    """Shows each `Notice` as one line."""
+    """Shows each `Notice` as one line, and the same text once.
+
+    A surface may be mended twice, for quick tets and then for fTetWild.
+    """
+    shown: set[str] = set()
     with warnings.catch_warnings():
         warnings.simplefilter("always", Notice)
         ordinary = warnings.showwarning
 
         def show(message: Warning | str, category: type[Warning], *where: Any, **to: Any) -> None:
-            if issubclass(category, Notice):
-                notice(f"notice: {message}")
-            else:
+            if not issubclass(category, Notice):
                 ordinary(message, category, *where, **to)
+            elif str(message) not in shown:
+                shown.add(str(message))
+                notice(f"notice: {message}")
 
         warnings.showwarning = show
         yield

@@ -9,7 +9,7 @@ from .accuracy_facts import accuracy_facts
 from .console import notice, print_facts
 from .model_info import energy_text
 from .pipeline import Built
-from .units import in_bytes, in_time
+from .units import in_bytes, in_percent, in_time
 
 #: Largest median distance of samples from their handles' targets, as a share of the motion.
 MISSED = 0.01
@@ -58,7 +58,7 @@ def _notice_missed_handles(built: Built) -> None:
     if problem.stiffness >= 0.5 * usual:
         cure = "make handles larger, or their motions smaller"
     notice(
-        f"notice: samples miss their handles by {100 * missed:.2g} % of the motion in the median; "
+        f"notice: samples miss their handles by {in_percent(missed)} of the motion in the median; "
         f"{cure}"
     )
 

@@ -16,8 +16,8 @@ def in_bytes(count: int | None) -> str:
 
 
 def in_percent(share: float) -> str:
-    """A share of one in two digits, such as 0.32 %."""
-    return f"{100 * share:.2g} %"
+    """A share of one in two digits, such as 0.32 % or 140 %."""
+    return f"{float(f'{100 * share:.2g}'):g} %"
 
 
 def in_time(seconds: float) -> str:

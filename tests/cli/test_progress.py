@@ -6,7 +6,7 @@ import pytest
 
 from snapspace import SolveProgress
 from snapspace.cli.progress import sample_progress, step_progress
-from snapspace.cli.units import in_bytes, in_time
+from snapspace.cli.units import in_bytes, in_percent, in_time
 
 
 def test_a_log_has_one_line_for_every_tenth(capsys: pytest.CaptureFixture[str]) -> None:
@@ -84,3 +84,11 @@ def test_times(seconds: float, text: str) -> None:
 )
 def test_sizes(count: int | None, text: str) -> None:
     assert in_bytes(count) == text
+
+
+@pytest.mark.parametrize(
+    ("share", "text"),
+    [(0.00321, "0.32 %"), (0.22, "22 %"), (0.999, "100 %"), (1.361, "140 %"), (12.3, "1200 %")],
+)
+def test_shares(share: float, text: str) -> None:
+    assert in_percent(share) == text

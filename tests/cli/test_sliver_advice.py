@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import snapspace as ss
-from snapspace.cli.build_advice import _notice_inverted_samples
+from snapspace.cli.build_advice import _notice_inverted_frames, _notice_inverted_samples
 from snapspace.generators import bar
 
 
@@ -48,4 +48,17 @@ def test_the_cure_of_other_inverted_tets_is_a_smaller_motion(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     told = notice_of(capsys, height=1.0)
-    assert told.endswith("make the box of motions smaller, or the handles larger")
+    assert told.endswith("make the box of motions smaller")
+
+
+@pytest.mark.parametrize(("added", "named"), [([0, 0, 1, 20], False), ([0, 2, 4, 20], True)])
+def test_more_inverted_tets_than_in_full_solutions_are_at_least_one(
+    capsys: pytest.CaptureFixture[str], added: list[int], named: bool
+) -> None:
+    """A median of half a tet was printed as 0."""
+    reports = [ss.SampleReport("converged", 1, 1, 0.0, 0.0, 0.0, 0.0, 5)] * len(added)
+    reference = SimpleNamespace(reports=reports)
+    validation = SimpleNamespace(inverted_tets=5 + np.array(added), reference=reference)
+    _notice_inverted_frames(validation)  # type: ignore[arg-type]
+    told = capsys.readouterr().err
+    assert ("have 3 more inverted tets" in told) == named and bool(told) == named
