@@ -263,8 +263,12 @@ class GrowingSamples:
     def _usable(self, which: NDArray[np.bool_], fewest: int) -> NDArray[np.bool_]:
         usable = self.snapshots.usable & which
         if usable.sum() < fewest:
+            failed = {r.status for r, w in zip(self.snapshots.reports, which, strict=True) if w}
+            cure = "allow more iterations, or make the motions smaller"
+            if "max_iterations" not in failed:
+                cure = "make the motions smaller, since their energies are too large for the solver"
             raise ValueError(
                 f"accurate_model: {int(usable.sum())} of {int(which.sum())} samples converged, but "
-                f"at least {fewest} are needed; allow more iterations, or make the motions smaller"
+                f"at least {fewest} are needed; {cure}"
             )
         return usable

@@ -13,7 +13,7 @@ from ..accurate import MOTIONS, check_budget
 from ..arguments import check_target
 from ..filling import SurfaceFilling
 from ..model_file import check_model_path, load
-from ..problem import is_quartic
+from ..problem import PosingProblem, is_quartic
 from ..reduction import STORED_ENERGIES, Energy, PosingModel
 from .accurate_pipeline import chosen_build
 from .build_advice import build_advice
@@ -146,7 +146,7 @@ def build(
         target_error=target_error,
         budget=budget,
         seed=choices.seed,
-        start=None if from_file is None else _old_model(from_file),
+        start=None if from_file is None else _old_model(from_file, problem),
         solver=choices.solver_options(),
     )
     built = make(output, source=source, surface=given.surface, begin=begin, executor=executor)
@@ -172,9 +172,16 @@ def check_output(output: Path) -> None:
         raise ValueError(f"{output}: the folder {output.parent} cannot be written to")
 
 
-def _old_model(file: Path) -> PosingModel:
-    """The model of --from; ValueError if it has no handles."""
+def _old_model(file: Path, problem: PosingProblem) -> PosingModel:
+    """The model of --from; ValueError if it has no handles, or another mesh."""
     model = load(file)
     if not isinstance(model, PosingModel):
         raise ValueError(f"{file}: this model blends poses; --from takes one with handles")
+    old, mesh = model.problem.mesh, problem.mesh
+    if old.fingerprint != mesh.fingerprint:
+        raise ValueError(
+            f"{file}: this is a model of another mesh, {old!r}; --from needs one of {mesh!r}. Tets "
+            "by fTetWild differ in every run: give as MESH the file *-tets.msh that the first "
+            "build wrote; or leave out --from"
+        )
     return model

@@ -21,6 +21,9 @@ from .units import in_percent
 
 #: Number of samples in which inverted tets are counted.
 LOOKED_AT = 8
+#: Reduced solutions are reported if they have more inverted tets by this share of those of the full
+#: ones.
+_MORE = 0.1
 
 Suggestions = list[tuple[str, list[str | Path]]]
 
@@ -112,7 +115,7 @@ def _notice_inverted_frames(validation: Validation) -> None:
     """A notice if most reduced solutions have more inverted tets than the full ones."""
     full = np.array([report.inverted_tets for report in validation.reference.reports])
     added = validation.inverted_tets - full
-    if np.median(added) < 1:
+    if np.median(added) < max(1.0, _MORE * np.median(full)):
         return
     notice(
         f"notice: reduced solutions of unseen samples have {np.median(added):.0f} more inverted "

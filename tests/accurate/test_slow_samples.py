@@ -114,3 +114,11 @@ def test_too_few_converged_samples_are_counted(slender: PosingProblem) -> None:
     options = SolverOptions(max_iterations=60)
     with pytest.raises(ValueError, match="of 80 samples converged, but at least 10 are needed"):
         accurate_model(slender, options=options)
+
+
+def test_energies_beyond_all_numbers_need_smaller_motions(slender: PosingProblem) -> None:
+    """More iterations do not help where no sample has a finite energy."""
+    domain = HandleBox(translation=1e6, angle=1.0)
+    far = PosingProblem(slender.mesh, slender.handles, domain=domain)
+    with pytest.raises(ValueError, match="make the motions smaller, since their energies are too"):
+        accurate_model(far)

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from snapspace import SolverOptions, load
+from snapspace import SolverOptions, load, write_tets
 from snapspace.accurate.solving import Solving
 from snapspace.cli.target_error import BLENDS_DECIDING, MOTIONS_DECIDING
 from snapspace.problem import Problem
 
 from .conftest import Run
-from .files import write_problem, write_tet_poses
+from .files import bar_mesh, write_problem, write_tet_poses
 
 #: Enough for some tight solutions of the bar, but not for all.
 ITERATIONS = 34
@@ -68,6 +68,11 @@ def test_an_old_model_is_the_start_of_one_with_other_handles(run: Run, tmp_path:
     assert record["reached"] and record["step"]["samples"] == 16, "those that judge, and no others"
     result = run("build", *words, "--samples", 24, "--dimension", 6)
     assert result.code == 2 and "--from chooses what --samples decides" in result.err
+    write_tets(tmp_path / "finer.msh", bar_mesh(9))
+    result = run("build", *words, tmp_path / "finer.msh")
+    told = " ".join(result.err.split())
+    assert result.code == 2 and "old.snapspace: this is a model of another mesh" in told
+    assert told.endswith("or leave out --from")
 
 
 @pytest.mark.parametrize(

@@ -41,3 +41,10 @@ def test_it_does_not_move_a_handle_that_the_samples_hold() -> None:
     angle[1] = 0.5
     turning = problem(translation=translation, angle=angle)
     assert first_motion(turning)[:3] == ["--handle", "right", "--euler"]
+
+
+def test_it_does_not_turn_a_handle_of_one_vertex() -> None:
+    mesh = bar_mesh()
+    handles = Handles([mesh.vertices[:, 0] < 0.1, [len(mesh.vertices) - 1]], names=["left", "tip"])
+    pointed = PosingProblem(mesh, handles, domain=HandleBox(translation=0.5, angle=0.5))
+    assert first_motion(pointed) == ["--handle", "tip", "--translate", "0.25,0,0"]

@@ -51,14 +51,17 @@ def test_the_cure_of_other_inverted_tets_is_a_smaller_motion(
     assert told.endswith("make the box of motions smaller")
 
 
-@pytest.mark.parametrize(("added", "named"), [([0, 0, 1, 20], False), ([0, 2, 4, 20], True)])
-def test_more_inverted_tets_than_in_full_solutions_are_at_least_one(
-    capsys: pytest.CaptureFixture[str], added: list[int], named: bool
+@pytest.mark.parametrize(
+    ("added", "full", "named"),
+    [([0, 0, 1, 20], 5, False), ([0, 2, 4, 20], 5, True), ([0, 2, 4, 20], 170, False)],
+)
+def test_notably_more_inverted_tets_than_in_full_solutions_are_reported(
+    capsys: pytest.CaptureFixture[str], added: list[int], full: int, named: bool
 ) -> None:
     """A median of half a tet was printed as 0."""
-    reports = [ss.SampleReport("converged", 1, 1, 0.0, 0.0, 0.0, 0.0, 5)] * len(added)
+    reports = [ss.SampleReport("converged", 1, 1, 0.0, 0.0, 0.0, 0.0, full)] * len(added)
     reference = SimpleNamespace(reports=reports)
-    validation = SimpleNamespace(inverted_tets=5 + np.array(added), reference=reference)
+    validation = SimpleNamespace(inverted_tets=full + np.array(added), reference=reference)
     _notice_inverted_frames(validation)  # type: ignore[arg-type]
     told = capsys.readouterr().err
     assert ("have 3 more inverted tets" in told) == named and bool(told) == named
