@@ -136,7 +136,11 @@ class _Paper:
         for point in points:
             self._marker(point, number)
         for (x, y), note in zip(points, curve.notes, strict=False):
-            self._write((x + 0.5 * self._text, y - 0.3 * self._text), note, "ls")
+            after, above = 0.5 * self._text, 0.3 * self._text
+            if x + after + self._font.getlength(note) < self._right:
+                self._write((x + after, y - above), note, "ls")
+            else:  # below the point, where a falling curve leaves space
+                self._write((x - after, y + above), note, "ra")
 
     def legend(self, curves: Sequence[Curve]) -> None:
         """The names, each behind a line of its colour, in the lower left corner or beside."""

@@ -76,3 +76,12 @@ def test_one_point_is_drawn() -> None:
 def test_curves_that_cannot_be_drawn_are_refused(curves: list[Curve], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         drawn(*curves)
+
+
+def test_notes_stay_within_the_frame() -> None:
+    """The note of the last point would cross it on the right."""
+    ends = [1, 100], [1.0, 0.01]
+    plain, noted = drawn(Curve("a", *ends)), drawn(Curve("a", *ends, ["d = 26", "d = 256"]))
+    changed = (plain != noted).any(axis=(0, 2))
+    dark = (plain.astype(int).sum(axis=2) < 600).mean(axis=0)
+    assert 0 < np.flatnonzero(changed).max() < np.flatnonzero(dark > 0.5).max()
