@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..input_error import InputError
 from .arrays import FloatArray, IndexArray, as_indices, as_points
 from .components import tet_components
+from .joined_parts import joined_parts
 from .quality import flat_tets, tet_volumes
 from .tet_mesh import TetMesh
 from .validation import check_values, duplicate_tets, repeated_vertex
@@ -16,9 +17,10 @@ from .validation import check_values, duplicate_tets, repeated_vertex
 def repair_tets(vertices: ArrayLike, tets: ArrayLike) -> tuple[TetMesh, list[str]]:
     """Repair faults that `TetMesh` refuses, as far as this needs no guess about the shape.
 
-    In this order, it drops tets that repeat a vertex, repeat another tet or have no volume;
-    reorients inverted tets by swapping two of their vertices; keeps the component with the most
-    tets; and drops vertices that belong to no tet.
+    In this order, it merges vertices of different components that have the same position; drops
+    tets that repeat a vertex, repeat another tet or have no volume; reorients inverted tets by
+    swapping two of their vertices; keeps the component with the most tets; and drops vertices that
+    belong to no tet.
 
     Parameters
     ----------
@@ -42,11 +44,22 @@ def repair_tets(vertices: ArrayLike, tets: ArrayLike) -> tuple[TetMesh, list[str
     kept = as_indices(tets, corners=4, who="repair_tets", what="tets")
     check_values(points, kept, who="repair_tets")
     notes: list[str] = []
+    points, kept = _join(points, kept, notes)
     kept = _drop_degenerate(points, kept, notes)
     kept = _reorient(points, kept, notes)
     kept = _keep_largest(points, kept, notes)
     points, kept = _drop_unused(points, kept, notes)
     return TetMesh(points, kept), notes
+
+
+def _join(points: FloatArray, tets: IndexArray, notes: list[str]) -> tuple[FloatArray, IndexArray]:
+    joined, merged_tets, merged = joined_parts(points, tets)
+    if merged:
+        notes.append(
+            f"merged {merged} of {len(points)} vertices with others at the same position, which "
+            "joins components"
+        )
+    return joined, merged_tets
 
 
 def _drop_degenerate(points: FloatArray, tets: IndexArray, notes: list[str]) -> IndexArray:

@@ -9,6 +9,7 @@ from ..counted import counted
 from ..input_error import InputError
 from .arrays import FloatArray, IndexArray
 from .components import tet_components
+from .joined_parts import joined_parts
 from .quality import flat_tets, tet_volumes
 
 _CURE = "snapspace.repair_tets(vertices, tets) (command line: --repair)"
@@ -22,7 +23,7 @@ def check_mesh(vertices: FloatArray, tets: IndexArray, *, who: str) -> FloatArra
         volumes = tet_volumes(vertices, tets)
     _check_volumes(vertices, tets, volumes, who=who)
     _check_vertices(tets, len(vertices), who=who)
-    _check_one_component(tets, len(vertices), who=who)
+    _check_one_component(vertices, tets, who=who)
     return volumes
 
 
@@ -155,14 +156,19 @@ def _check_vertices(tets: IndexArray, vertex_count: int, *, who: str) -> None:
         )
 
 
-def _check_one_component(tets: IndexArray, vertex_count: int, *, who: str) -> None:
-    sizes = np.bincount(tet_components(tets, vertex_count))
+def _check_one_component(vertices: FloatArray, tets: IndexArray, *, who: str) -> None:
+    sizes = np.bincount(tet_components(tets, len(vertices)))
     if len(sizes) > 1:
         more = ", ..." if len(sizes) > 5 else ""
+        _, _, merged = joined_parts(vertices, tets)
+        cure = f"keep the largest with {_CURE}, or mesh the parts as one"
+        if merged:
+            same = counted(merged, "vertex has", "vertices have")
+            cure = f"{same} the position of one of another component: merge them with {_CURE}"
         raise InputError(
             who,
             f"the mesh has {len(sizes)} components ({_indices(sizes[:5])}{more} tets), "
-            f"one is needed: keep the largest with {_CURE}, or mesh the parts as one",
+            f"one is needed: {cure}",
         )
 
 

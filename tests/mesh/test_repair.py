@@ -45,6 +45,35 @@ def test_every_fault_is_mended_and_listed() -> None:
     assert mesh.volume == pytest.approx(1.0)
 
 
+def test_tets_with_vertices_of_their_own_are_joined() -> None:
+    """Files with a value per corner of each tet; the largest component was a single tet."""
+    vertices, tets = box_arrays()
+    alone = np.arange(tets.size).reshape(-1, 4)
+    with pytest.raises(ValueError, match="165 vertices have the position of one of another compon"):
+        TetMesh(vertices[tets].reshape(-1, 3), alone)
+    mesh, notes = repair_tets(vertices[tets].reshape(-1, 3), alone)
+    assert notes == [
+        "merged 165 of 192 vertices with others at the same position, which joins components"
+    ]
+    assert np.array_equal(mesh.vertices[mesh.tets], vertices[tets])
+    assert len(mesh.vertices) == len(vertices)
+
+
+def test_the_sides_of_a_slit_stay_apart() -> None:
+    """They belong to one component, and the mesh is valid; an island does not change that."""
+    vertices, tets = box_arrays()
+    inner = int(np.flatnonzero((vertices == 0.5).all(axis=1))[0])
+    side = (tets == inner).any(axis=1) & (vertices[tets].mean(axis=1)[:, 0] > 0.5)
+    slit = np.where((tets == inner) & side[:, None], len(vertices), tets)
+    points = np.concatenate([vertices, vertices[[inner]]])
+    assert repair_tets(points, slit)[1] == []
+    island = np.array([[9, 9, 9], [10, 9, 9], [9, 10, 9], [9, 9, 10]])
+    both = np.concatenate([slit, [[28, 29, 30, 31]]])
+    mesh, notes = repair_tets(np.concatenate([points, island]), both)
+    assert notes[0].startswith("kept the largest of 2 components")
+    assert len(mesh.vertices) == len(points)
+
+
 @settings(max_examples=40)
 @given(st.integers(0, 2**32 - 1))
 def test_any_mixture_of_faults_ends_in_a_valid_mesh(seed: int) -> None:
