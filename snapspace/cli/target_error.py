@@ -94,9 +94,14 @@ def notice_decided(deciding: Sequence[str]) -> None:
     words = _given_words(deciding)
     if words:
         verb = "decides" if len(words) == 1 else "decide"
+        by_default = [] if "--samples" in words else ["--samples"]
+        if not {"--dimension", "--energy-fraction"} & set(words):
+            by_default.append("--dimension")
+        sets = "sets" if len(by_default) == 1 else "set"
+        size = f"; {' and '.join(by_default)} {sets} the size" if by_default else ""
         notice(
-            f"notice: {', '.join(words)} {verb} in place of --target-error, which does not apply; "
-            "--samples and --dimension set the size"
+            f"notice: {', '.join(words)} {verb} in place of --target-error, which does not apply"
+            f"{size}"
         )
 
 

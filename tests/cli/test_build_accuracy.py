@@ -106,8 +106,10 @@ def test_options_that_decide_in_place_of_the_target_are_named(run: Run, tmp_path
         "notice: --samples, --dimension, --lumped decide in place of --target-error, which does "
         "not apply" in result.err
     )
+    assert "the size" not in result.err, "both options for it are given"
     other = run("interpolate", *write_tet_poses(tmp_path), "--lumped", "-o", path)
     assert "notice: --lumped decides in place of --target-error" in other.err
+    assert "--samples and --dimension set the size" in " ".join(other.err.split())
     without = run("build", "--problem", neo_hookean(tmp_path), "--target-error", 0.05, "-o", path)
     assert "in place of" not in without.err
 
