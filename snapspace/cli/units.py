@@ -17,7 +17,12 @@ def in_bytes(count: int | None) -> str:
 
 def in_percent(share: float) -> str:
     """A share of one in two digits, such as 0.32 % or 140 %."""
-    return f"{float(f'{100 * share:.2g}'):g} %"
+    return f"{two_digits(100 * share)} %"
+
+
+def two_digits(value: float) -> str:
+    """A number in two digits, without an exponent up to a million, such as 0.32 or 590."""
+    return f"{float(f'{value:.2g}'):g}"
 
 
 def in_time(seconds: float) -> str:

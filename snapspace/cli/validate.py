@@ -19,6 +19,7 @@ from .error_plot import save_error_plot
 from .loading import leading_of, load_leading
 from .options import FILE, SAMPLE_COUNT, SEED_NUMBER, json_option, leading_option, threads_option
 from .progress import sample_progress, spinner
+from .units import two_digits
 from .validation_tables import print_curve, print_split, print_validation
 
 SAMPLES, SEED = 30, 1
@@ -182,7 +183,7 @@ def _split(
         print_split(split)
     if not needed or split is None:
         return split, None
-    notice(f"notice: the median error is {error / least:.2g} times that of the projections")
+    notice(f"notice: the median error is {two_digits(error / least)} times that of the projections")
     if fewer:
         notice("the file has more modes; give a larger --dimension, or leave it out")
         return split, None

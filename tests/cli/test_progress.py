@@ -6,7 +6,7 @@ import pytest
 
 from snapspace import SolveProgress
 from snapspace.cli.progress import sample_progress, step_progress
-from snapspace.cli.units import in_bytes, in_percent, in_time
+from snapspace.cli.units import in_bytes, in_percent, in_time, two_digits
 
 
 def test_a_log_has_one_line_for_every_tenth(capsys: pytest.CaptureFixture[str]) -> None:
@@ -92,3 +92,7 @@ def test_sizes(count: int | None, text: str) -> None:
 )
 def test_shares(share: float, text: str) -> None:
     assert in_percent(share) == text
+
+
+def test_two_digits_have_no_exponent() -> None:
+    assert [two_digits(value) for value in (587.0, 9.04, 100_000.0)] == ["590", "9", "100000"]
