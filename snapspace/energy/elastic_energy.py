@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import bsr_array, csr_array
 
 from .. import _core
-from ..arguments import as_numbers, is_number, shown
+from ..arguments import is_number, shown
 from ..material import Material, checked_material
 from ..mesh import Body, as_shape, check_body
 from .shell_material import Bending, element_material, is_of_stars
@@ -98,7 +98,7 @@ class ElasticEnergy:
 
     def hessian_product(self, x: ArrayLike, v: ArrayLike) -> FloatArray:
         """Hessian at x times v (3n,), matrix-free."""
-        direction = as_numbers("ElasticEnergy", "the direction", v).reshape(-1)
+        direction = as_shape(v, self.mesh.vertices.size, who="ElasticEnergy", what="the direction")
         product: FloatArray = self.core.hessian_product(self._displacement(x), direction)
         return product
 

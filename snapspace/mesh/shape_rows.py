@@ -41,15 +41,20 @@ def shape_or_rows(shapes: ArrayLike, size: int, *, who: str, what: str = "shapes
     return x
 
 
-def as_shape(x: ArrayLike, size: int, *, who: str) -> FloatArray:
-    """A shape as (3n,) float64, from (3n,) or (n, 3); ValueError for another number of entries."""
-    positions = as_numbers(who, "the shape", x).reshape(-1)
+def as_shape(x: ArrayLike, size: int, *, who: str, what: str = "the shape") -> FloatArray:
+    """A shape as (3n,) float64, from (3n,) or (n, 3); ValueError for another shape."""
+    positions = as_numbers(who, what, x)
     if positions.size != size:
         raise ValueError(
-            f"{who}: the shape has {positions.size} coordinates, but the mesh has {size // 3} "
+            f"{who}: {what} has {positions.size} coordinates, but the mesh has {size // 3} "
             f"vertices, which need {size}"
         )
-    return positions
+    if positions.shape not in ((size,), (size // 3, 3)):
+        raise ValueError(
+            f"{who}: {what} has shape {positions.shape}, but must be ({size // 3}, 3), one row per "
+            f"vertex, or ({size},)"
+        )
+    return positions.reshape(-1)
 
 
 def _message(got: tuple[int, ...], size: int, needed: str, who: str, what: str) -> str:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..arguments import as_numbers
+from ..mesh import as_shape
 from .corner_sets import pairs_in_rounds, triples_in_circles
 
 FloatArray = NDArray[np.float64]
@@ -106,11 +107,11 @@ def shape_and_weights(
     x: ArrayLike, weights: ArrayLike, size: int, count: int
 ) -> tuple[FloatArray, FloatArray]:
     """A shape (size,) and weights (count,) as float64; ValueError for other numbers of them."""
-    positions = as_numbers("InterpolationProblem", "the shape", x).reshape(-1)
+    positions = as_shape(x, size, who="InterpolationProblem")
     w = as_numbers("InterpolationProblem", "weights", weights)
-    if positions.size != size or w.shape != (count,):
+    if w.shape != (count,):
         raise ValueError(
-            f"InterpolationProblem: needs {size} coordinates and {count} weights, got "
-            f"{positions.size} and {w.shape}"
+            f"InterpolationProblem: weights have shape {w.shape}, but must be ({count},), one per "
+            "pose"
         )
     return positions, w

@@ -18,6 +18,7 @@ from ..energy import PoseEnergies, ShellMaterial, is_of_stars
 from ..interruptible import run_abandonable
 from ..material import Material, checked_material, default_material
 from ..mesh import ShellMesh, TetMesh, mass_matrix, mass_of_cells, tet_volumes, triangle_areas
+from ..mesh.frozen import frozen
 from ..mesh.shape_rows import as_shape
 from ..registration import registered
 from .blends import shape_and_weights
@@ -77,8 +78,9 @@ class InterpolationProblem:
     ) -> None:
         self.poses = as_poses(poses)
         mesh = self.mesh
-        usual = default_material(surface=isinstance(mesh, ShellMesh), blended=True)
-        self.material = checked_material(material or usual, len(mesh.cells), "InterpolationProblem")
+        if material is None:
+            material = default_material(surface=isinstance(mesh, ShellMesh), blended=True)
+        self.material = checked_material(material, len(mesh.cells), "InterpolationProblem")
         self.domain = Simplex(corners=len(self.poses), extrapolation=extrapolation)
         if mean_shape is not None:
             self.mean_shape = checked_mean_shape(mean_shape, len(self.base))
@@ -144,7 +146,7 @@ class InterpolationProblem:
     def pose_shapes(self) -> FloatArray:
         """The poses registered to the mean shape, (k, 3n): the solutions for one-hot weights."""
         flat = self.poses.shapes.reshape(len(self.poses), -1)
-        return registered(flat, self.tau, self._mean_mass)
+        return frozen(registered(flat, self.tau, self._mean_mass))
 
     @cached_property
     def certain_range(self) -> CertainRange | None:
@@ -245,7 +247,7 @@ class InterpolationProblem:
     def _solved_mean_shape(self, *, threads: int) -> FloatArray:
         poses = self._near_poses - self.base
         mean = self.base + mean_displacement(self._rest_system, poses, threads=threads)
-        return registered(mean, self.base, self._mass_of(mean))
+        return frozen(registered(mean, self.base, self._mass_of(mean)))
 
     @cached_property
     def _rest_system(self) -> core.InterpolationSystem:
@@ -286,10 +288,7 @@ class InterpolationProblem:
 
 
 def _restored(
-    poses: tuple[Any, ...],
-    material: Material,
-    extrapolation: float,
-    mean_shape: FloatArray | None,
+    poses: tuple[Any, ...], material: Material, extrapolation: float, mean_shape: FloatArray | None
 ) -> InterpolationProblem:
     """The problem from a pickle, checked again and with read-only arrays."""
     return InterpolationProblem(

@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
-from ..arguments import as_numbers
 from ..interruptible import run_interruptible
+from ..mesh import as_shape
+from ..mesh.frozen import frozen
 
 FloatArray = NDArray[np.float64]
 
@@ -23,16 +24,11 @@ _MOST_STAGES = 200
 
 
 def checked_mean_shape(shape: ArrayLike, size: int) -> FloatArray:
-    """A known mean shape (3n,); ValueError unless it has the size of the poses."""
-    x = as_numbers("InterpolationProblem", "the mean shape", shape).reshape(-1).copy()
-    if len(x) != size:
-        raise ValueError(
-            f"InterpolationProblem: the mean shape has {len(x)} coordinates, but the poses have "
-            f"{size}"
-        )
+    """A known mean shape (3n,), read-only; ValueError unless it has the size of the poses."""
+    x = np.array(as_shape(shape, size, who="InterpolationProblem", what="the mean shape"))
     if not np.isfinite(x).all():
         raise ValueError("InterpolationProblem: the mean shape has a coordinate that is not finite")
-    return x
+    return frozen(x)
 
 
 def mean_displacement(

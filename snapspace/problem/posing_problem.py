@@ -19,6 +19,7 @@ from ..input_error import located
 from ..interruptible import run_abandonable
 from ..material import Material, checked_material, default_material
 from ..mesh import Body, ShellMesh, as_shape, mass_matrix
+from ..mesh.frozen import frozen
 from .handle_box import HandleBox
 from .handle_response import HandleResponse
 from .handle_stiffness import checked_stiffness, usual_stiffness
@@ -177,7 +178,8 @@ class PosingProblem:
         """Mass centroids of the handles at rest, (h, 3)."""
         masses, vertices = self.mesh.vertex_masses, self.mesh.vertices
         regions = [handle.vertices for handle in self.handles]
-        return np.array([np.average(vertices[r], axis=0, weights=masses[r]) for r in regions])
+        means = [np.average(vertices[r], axis=0, weights=masses[r]) for r in regions]
+        return frozen(np.array(means))
 
     @cached_property
     def _arms(self) -> list[FloatArray]:
@@ -188,12 +190,12 @@ class PosingProblem:
     @cached_property
     def pinned(self) -> NDArray[np.int32]:
         """Vertices of all handles, handle by handle, (p,)."""
-        return np.concatenate([handle.vertices for handle in self.handles])
+        return frozen(np.concatenate([handle.vertices for handle in self.handles]))
 
     @cached_property
     def pin_weights(self) -> FloatArray:
         """stiffness * m_j of the pinned vertices, (p,)."""
-        return np.multiply(self.stiffness, self.mesh.vertex_masses[self.pinned])
+        return frozen(np.multiply(self.stiffness, self.mesh.vertex_masses[self.pinned]))
 
     @cached_property
     def system(self) -> core.PosingSystem:

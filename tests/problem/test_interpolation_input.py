@@ -22,7 +22,7 @@ from snapspace import (
 from snapspace.mesh import tet_volumes
 from snapspace.registration import rigid_registration
 
-from ..shapes import bar_poses, bent, deformed, interpolation_problem, irregular_bar
+from ..shapes import bar_poses, bar_problem, bent, deformed, interpolation_problem, irregular_bar
 
 FloatArray = NDArray[np.float64]
 PROBLEM = interpolation_problem()
@@ -53,7 +53,7 @@ BAD: list[tuple[Callable[[], Any], str]] = [
     ),
     (
         lambda: InterpolationProblem(POSES, mean_shape=SHAPE[3:]),
-        "InterpolationProblem: the mean shape has 240 coordinates, but the poses have 243",
+        "InterpolationProblem: the mean shape has 240 coordinates, but the mesh has 81 vertices",
     ),
     (
         lambda: InterpolationProblem(POSES, mean_shape=not_finite()),
@@ -61,11 +61,23 @@ BAD: list[tuple[Callable[[], Any], str]] = [
     ),
     (
         lambda: PROBLEM.value_and_gradient(SHAPE[3:], np.ones(3)),
-        "InterpolationProblem: needs 243 coordinates and 3 weights, got 240 and (3,)",
+        "InterpolationProblem: the shape has 240 coordinates, but the mesh has 81 vertices",
+    ),
+    (
+        lambda: InterpolationProblem(POSES, mean_shape=SHAPE.reshape(-1, 3).T),
+        "InterpolationProblem: the mean shape has shape (3, 81), but must be (81, 3), one row per",
+    ),
+    (
+        lambda: InterpolationProblem(POSES, material=""),  # type: ignore[arg-type]
+        "InterpolationProblem: material is '' of type str, but it must be one of ",
+    ),
+    (
+        lambda: PROBLEM.value_and_gradient(SHAPE.reshape(-1, 3).T, np.ones(3)),
+        "InterpolationProblem: the shape has shape (3, 81), but must be (81, 3), one row per",
     ),
     (
         lambda: PROBLEM.value_and_gradient(SHAPE, np.ones(2)),
-        "InterpolationProblem: needs 243 coordinates and 3 weights, got 243 and (2,)",
+        "InterpolationProblem: weights have shape (2,), but must be (3,), one per pose",
     ),
     (
         lambda: PROBLEM.weights([0.5, 0.5]),
@@ -91,6 +103,15 @@ def test_bad_input_is_refused(call: Callable[[], Any], message: str) -> None:
     with pytest.raises(ValueError, match=re.escape(message)) as caught:
         call()
     assert "\n" not in str(caught.value)
+
+
+def test_shapes_that_a_problem_keeps_cannot_be_changed_in_place() -> None:
+    posing = bar_problem()
+    given = InterpolationProblem(POSES, mean_shape=SHAPE)
+    kept = (PROBLEM.tau, PROBLEM.pose_shapes, given.tau, posing.tau)
+    for array in (*kept, posing.centroids, posing.pinned, posing.pin_weights):
+        with pytest.raises(ValueError, match="read-only"):
+            array += 1
 
 
 def test_weights_beyond_the_simplex_are_taken_on_request_or_in_a_larger_domain() -> None:
