@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .arguments import as_numbers, as_path, require_type
+from .arguments import as_numbers, as_path, require_positive, require_type
 from .disk import atomic_file
 from .gltf import film_targets, still_shape, write_glb
 from .mesh import SURFACE_OUTPUTS, TET_OUTPUTS, EmbeddedSurface, solid_of, write_surface, write_tets
@@ -64,8 +64,8 @@ def write_animation(
     Raises
     ------
     ValueError
-        For something other than a model, an unknown kind or option, a folder that cannot be
-        created, and as for `save_film`.
+        For something other than a model, an unknown kind or option, a frame rate that is not
+        positive, a folder that cannot be created, and as for `save_film`.
 
     Examples
     --------
@@ -76,6 +76,7 @@ def write_animation(
     target = as_path("write_animation", path, what="file or folder")
     cure = "give the vertices (n, 3) of each frame"
     require_type("write_animation", "shapes", shapes, Iterable, cure)
+    require_positive("write_animation", "frames_per_second", frames_per_second)
     if target.suffix.lower() in (".gif", ".mp4"):
         from .pictures import save_film
 

@@ -54,7 +54,10 @@ def require_type(who: str, name: str, value: object, kinds: Any, cure: str) -> N
 def as_numbers(who: str, name: str, values: ArrayLike) -> FloatArray:
     """An array of float64, not copied if it is one already; ValueError for anything but numbers."""
     try:
-        return np.asarray(values, np.float64)
+        array = np.asarray(values)
+        if array.dtype.kind in "cmM":  # NumPy would drop imaginary parts, and count days
+            raise ValueError
+        return np.asarray(array, np.float64)
     except (TypeError, ValueError):
         kind = type(values).__name__
         raise ValueError(

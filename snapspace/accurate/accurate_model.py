@@ -13,7 +13,7 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import Checkpoint, Progress, Snapshots, SolverOptions
-from .checks import check_problem
+from .checks import check_search
 from .model_search import Model, ModelSearch, Tell
 from .search_options import SearchOptions
 from .solving import Solving
@@ -179,11 +179,12 @@ def accurate_model(
     ValueError
         For something other than a problem, a target that is not between 0 and 1, a budget that is
         not positive, fewer than 20 samples, or no usable ones. Also for a `start` of another mesh,
-        without training shapes, or that differs in more than its handles.
+        without training shapes, or that differs in more than its handles, for a surface of another
+        mesh, and for an argument of another type.
     Interrupted
         On Ctrl-C, after the finished samples have been saved.
     """
-    check_problem(problem, "accurate_model")
+    check_search(problem, options, surface, "accurate_model", checkpoint=checkpoint, tell=tell)
     search = ModelSearch(
         problem,
         SearchOptions(

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
-from ..arguments import is_finite, is_whole, shown
+from collections.abc import Callable
+
+from ..arguments import is_finite, is_whole, require_type, shown
+from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
+from ..reduction.shown_surface import surface_in
+from ..snapshots import Checkpoint, SolverOptions
 
 #: Smallest number of samples, and of held-out ones among them.
 FEWEST_SAMPLES, FEWEST_HELD_OUT = 20, 4
@@ -16,6 +21,29 @@ def check_problem(problem: object, who: str) -> None:
             f"{who}: got a {type(problem).__name__}, but needs a problem, such as "
             "PosingProblem(mesh, handles, domain=box) or InterpolationProblem(poses)"
         )
+
+
+def check_search(
+    problem: PosingProblem | InterpolationProblem,
+    options: SolverOptions | None,
+    surface: EmbeddedSurface | None,
+    who: str,
+    *,
+    checkpoint: Checkpoint | None = None,
+    **functions: Callable[[str], None] | None,
+) -> None:
+    """Raises a ValueError in the name of `who` before samples are solved in vain.
+
+    functions : arguments that must be functions or None, by name
+    """
+    check_problem(problem, who)
+    cure = "give SolverOptions(tolerance=..., ...)"
+    require_type(who, "options", options, SolverOptions | None, cure)
+    require_type(who, "checkpoint", checkpoint, Checkpoint | None, "give Checkpoint(folder)")
+    for name, function in functions.items():
+        require_type(who, name, function, Callable | None, "give a function, or None")
+    if surface is not None:
+        surface_in(problem.mesh, surface, who=who)
 
 
 def check_budget(budget: float | None) -> None:

@@ -13,7 +13,7 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import PosingModel
 from ..snapshots import Progress, Snapshots, SolverOptions
-from .checks import check_problem
+from .checks import check_search
 from .model_search import Begins, Model, ModelSearch
 from .search_options import SearchOptions
 from .solving import Solving
@@ -91,7 +91,7 @@ def growing_models(
     ValueError
         As for `accurate_model`.
     """
-    check_problem(problem, "growing_models")
+    check_search(problem, options, surface, "growing_models", begins=begins)
     search = ModelSearch(
         problem,
         SearchOptions(

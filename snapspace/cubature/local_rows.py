@@ -27,7 +27,7 @@ class LocalRows:
     rows : float32, one cluster after the other, tets x 9 x rank
     modes : (ranks, d) float32, one cluster after the other
 
-    Raises ValueError if sizes do not match.
+    `core` raises ValueError if sizes do not match.
     """
 
     sizes: NDArray[np.int32]

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import wrong_type
+
 
 def chosen_rows(which: ArrayLike, count: int, *, who: str) -> NDArray[np.intp]:
     """Row numbers (c,) from a mask (count,) or from row numbers, in their order.
@@ -12,7 +14,11 @@ def chosen_rows(which: ArrayLike, count: int, *, who: str) -> NDArray[np.intp]:
     Raises ValueError in the name of `who` for a mask of another length, a number that is out of
     range, or anything else.
     """
-    chosen = np.asarray(which)
+    try:
+        chosen = np.asarray(which)
+    except ValueError:  # rows of different lengths
+        cure = f"give a boolean mask ({count},) or whole numbers (c,)"
+        raise wrong_type(who, "which", which, cure) from None
     if chosen.ndim == 1 and chosen.dtype == bool:
         if len(chosen) != count:
             raise ValueError(f"{who}: the mask has {len(chosen)} entries, but there are {count}")

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
+from ..arguments import shown
 from ..material import ARAP, Material, StableNeoHookean, StVK
 from ..mesh import Body, ShellMesh
 from .arap_triangles import KIND, arap_triangles, star_hats
@@ -76,8 +77,10 @@ def element_material(
         For a shell of a material without a membrane, for an unknown measure of bending, or for one
         other than the default with `ARAP`.
     """
-    if bending not in BENDINGS:
-        raise ValueError(f"{who}: unknown bending '{bending}'; known are {', '.join(BENDINGS)}")
+    if bending not in tuple(BENDINGS):
+        raise ValueError(
+            f"{who}: unknown bending {shown(bending)}; known are {', '.join(BENDINGS)}"
+        )
     if not isinstance(mesh, ShellMesh):
         return material
     poses = mesh.vertices[None]

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import require_type
 from ..mesh import MeshNotice, TetMesh
 from ..mesh.arrays import FloatArray
 from ..mesh.signed_distance import SignedDistance
@@ -73,6 +76,7 @@ def stuff_surface(
     """
     surface = closed_input(vertices, faces, who="stuff_surface", mend=mend)
     check_share(edge_length, "edge_length", largest=0.5, who="stuff_surface")
+    require_type("stuff_surface", "progress", progress, Callable | None, "give a function, or None")
     distance = SignedDistance(surface.vertices, surface.faces)
 
     def implicit(points: FloatArray) -> FloatArray:

@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
-from ..arguments import is_finite, require_count, shown
+from ..arguments import is_finite, require_count, require_type, shown
 from ..blas import single_threaded_blas
 from ..interruptible import run_interruptible
 from ..mesh import TetMesh
 from ..mesh.embedded_surface import EmbeddedSurface
+from ..thread_count import checked_threads
 from .moved_with_surface import moved_with_surface
 from .pose_fits import PoseFit, PoseFits
 from .stretches import stretches
@@ -103,6 +104,8 @@ def fit_poses(
     """
     surfaces, labels = checked_targets(mesh, surface, targets, names)
     _check_options(deviation, max_iterations, threads)
+    for name, function in (("progress", progress), ("on_finished", on_finished)):
+        require_type("fit_poses", name, function, Callable | None, "give a function, or None")
     fitting = _Fitting(mesh, surface, deviation, max_iterations)
     fitted: dict[int, tuple[FloatArray, PoseFit]] = {}
     announced: set[int] = set()
@@ -224,7 +227,7 @@ def _ended(report: core.FitReport) -> bool:
 def _check_options(deviation: float, max_iterations: int, threads: int | None) -> None:
     check_deviation(deviation)
     require_count("fit_poses", "max_iterations", max_iterations, at_least=1)
-    if threads is not None and threads < 1:
+    if checked_threads(threads, "fit_poses") == 0 and threads is not None:
         raise ValueError(f"fit_poses: threads is {threads}, but must be at least 1")
 
 

@@ -39,6 +39,7 @@ def checked_targets(
             f"fit_poses: targets have shape {surfaces.shape}, but the surface has {count} points, "
             f"so (poses, {count}, 3) is needed"
         )
+    require_type("fit_poses", "names", names, Sequence | None, "give a list of names")
     labels = [str(i) for i in range(len(surfaces))] if names is None else list(names)
     if len(labels) != len(surfaces):
         raise ValueError(f"fit_poses: {len(surfaces)} targets have {len(labels)} names")

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import Executor
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arguments import check_target, require_count
+from ..arguments import check_target, require_count, require_type
 from ..displacements import SnapshotGram
 from ..input_error import located
 from ..problem import InterpolationProblem, PosingProblem, require_problem
@@ -111,6 +112,12 @@ def greedy_snapshots(
     if target is not None:
         with located("greedy_snapshots"):
             check_target(target)
+    cure = "give SolverOptions(tolerance=..., ...)"
+    require_type("greedy_snapshots", "options", options, SolverOptions | None, cure)
+    cure = "give Checkpoint(folder)"
+    require_type("greedy_snapshots", "checkpoint", checkpoint, Checkpoint | None, cure)
+    cure = "give a function, or None"
+    require_type("greedy_snapshots", "progress", progress, Callable | None, cure)
     options = options or SolverOptions()
     so_far = SolvedSoFar(problem, known, dimension)
     batch_progress = BatchProgress(progress, count) if progress else None

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import as_numbers
+
 FloatArray = NDArray[np.float64]
 
 
@@ -55,8 +57,8 @@ def lame_of_young(
 
 def _numbers(value: ArrayLike, who: str, name: str) -> FloatArray:
     try:
-        array = np.asarray(value, np.float64)
-    except (TypeError, ValueError):
+        array = as_numbers(who, name, value)
+    except ValueError:
         raise ValueError(f"{who}: {name} must be a number, or one per tet, got {value!r}") from None
     if array.ndim > 1 or array.size == 0:
         raise ValueError(

@@ -8,6 +8,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import as_numbers
 from .material import Material, Modulus
 
 
@@ -52,5 +53,5 @@ class MooneyRivlin(Material):
     @classmethod
     def from_lame(cls, *, lam: ArrayLike, mu: ArrayLike) -> MooneyRivlin:
         """The material with these Lame parameters and mu1 = mu2."""
-        half = 0.5 * np.asarray(mu, np.float64)
+        half = 0.5 * as_numbers("MooneyRivlin", "mu", mu)
         return cls(lam=lam, mu1=half, mu2=half)  # type: ignore[arg-type]  # __init__ checks

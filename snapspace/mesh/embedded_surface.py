@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import coo_array, csr_array
 
-from ..arguments import as_numbers, require_count
+from ..arguments import as_numbers, require_count, require_type
 from .arrays import FloatArray, IndexArray, as_indices
 from .body import Body
 from .check_body import check_body
@@ -60,7 +60,8 @@ class EmbeddedSurface:
         who = "EmbeddedSurface"
         faces = as_indices(self.faces, corners=3, who=who, what="faces")
         corners = as_indices(self.corners, corners=4, who=who, what="corners")
-        weights = np.array(self.weights, np.float64, order="C")
+        weights = np.array(as_numbers(who, "weights", self.weights), order="C")
+        require_type(who, "source", self.source, SurfaceFile | None, "give open_surface(path)")
         if weights.shape != corners.shape:
             raise ValueError(
                 f"{who}: weights must have the shape of corners, {corners.shape}, got "
@@ -102,8 +103,16 @@ class EmbeddedSurface:
         return nearest
 
     def following(self, vertices: ArrayLike) -> NDArray[np.intp]:
-        """The surface vertices that follow one of these tet vertices most, ascending."""
+        """The surface vertices that follow one of these tet vertices most, ascending.
+
+        ValueError for anything but indices, such as a mask.
+        """
         wanted = as_numbers("EmbeddedSurface", "vertices", vertices)
+        if wanted.size and np.asarray(vertices).dtype.kind not in "iu":
+            raise ValueError(
+                "EmbeddedSurface: vertices must be indices of tet vertices, but are "
+                f"{np.asarray(vertices).dtype}; np.flatnonzero(mask) gives those of a mask"
+            )
         return np.flatnonzero(np.isin(self.nearest, wanted))
 
     def is_boundary(self, mesh: Body) -> bool:

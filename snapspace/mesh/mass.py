@@ -60,9 +60,12 @@ def mass_of_cells(cells: IndexArray, volumes: FloatArray, *, lumped: bool = Fals
 
 
 def check_mass(mass: csr_array, size: int | None = None, *, who: str) -> None:
-    """ValueError of `who` unless `mass` is a sparse matrix (n, n), for shape vectors of size 3n."""
-    if not issparse(mass):
-        raise wrong_type(who, "mass", mass, "give mass_matrix(mesh) or problem.mass()")
+    """ValueError of `who` unless `mass` is a csr_array (n, n), for shape vectors of size 3n."""
+    if not isinstance(mass, csr_array):
+        cure = "give mass_matrix(mesh) or problem.mass()"
+        if issparse(mass):
+            cure = "give scipy.sparse.csr_array(mass)"
+        raise wrong_type(who, "mass", mass, cure)
     n = mass.shape[0] if size is None else size // 3
     if mass.shape != (n, n):
         raise ValueError(f"{who}: mass has shape {mass.shape}, but must be ({n}, {n})")

@@ -7,7 +7,7 @@ import gzip
 import html
 import warnings
 
-from ..arguments import is_number, shown
+from ..arguments import is_finite, shown
 from ..reduction import ReducedModel
 from .export import page_with_model
 
@@ -56,7 +56,7 @@ class NotebookPage:
     """
 
     def __init__(self, model: ReducedModel, *, title: str, up: str | None, height: int) -> None:
-        if not (is_number(height) and height >= 100):
+        if not (is_finite(height) and height >= 100):
             raise ValueError(
                 f"show: height is {shown(height)} pixels, but the page needs 100 or more"
             )

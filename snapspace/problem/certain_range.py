@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import as_numbers
 from ..material import Material
 from .simplex import Simplex
 
@@ -171,7 +172,7 @@ def certain_range(material: Material, corners: ArrayLike) -> CertainRange | None
 
 
 def _checked(corners: ArrayLike) -> FloatArray:
-    array = np.asarray(corners, np.float64)
+    array = as_numbers("CertainRange", "corners", corners)
     if array.ndim != 4 or array.shape[2:] != (4, 3) or array.shape[0] < 2 or array.shape[1] < 1:
         raise ValueError(
             "CertainRange: corners must be (poses, tets, 4, 3) with two poses or more and a tet, "

@@ -11,7 +11,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arguments import as_arrays, is_whole, require_count, require_type, shown, wrong_type
+from ..arguments import (
+    as_arrays,
+    as_numbers,
+    is_whole,
+    require_count,
+    require_type,
+    shown,
+    wrong_type,
+)
 
 FloatArray = NDArray[np.float64]
 Vector = tuple[float, float, float]
@@ -174,8 +182,8 @@ class HandleBox:
 def _numbers(value: Any, name: str) -> FloatArray:
     """A number, three, or rows of three; ValueError for anything else."""
     try:
-        bounds = np.asarray(value, np.float64)
-    except (TypeError, ValueError):
+        bounds = as_numbers("HandleBox", name, value)
+    except ValueError:
         bounds = np.empty(0)
     if bounds.ndim > 2 or bounds.shape[bounds.ndim - 1 :] not in ((), (3,)) or not bounds.size:
         raise ValueError(

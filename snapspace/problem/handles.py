@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..arguments import require_type, wrong_type
+from ..arguments import require_type, shown, wrong_type
 from .names import check_names
 
 IndexArray = NDArray[np.int32]
@@ -103,9 +103,10 @@ class Handles:
 
     def index(self, name: str) -> int:
         """Position of the handle with this name; ValueError lists the names if there is none."""
-        if name not in self.names:
+        if not isinstance(name, str) or name not in self.names:
+            given = name if isinstance(name, str) else shown(name)
             raise ValueError(
-                f"there is no handle '{name}'; the handles are {', '.join(self.names)}"
+                f"there is no handle '{given}'; the handles are {', '.join(self.names)}"
             )
         return self.names.index(name)
 
@@ -178,7 +179,11 @@ def _handles(chosen: Sequence[Handle]) -> Handles:
 
 
 def _handle(name: str, which: ArrayLike) -> Handle:
-    array = np.asarray(which)
+    try:
+        array = np.asarray(which)
+    except ValueError:  # rows of different lengths
+        cure = "give a list of vertex indices or a boolean mask"
+        raise wrong_type(f"Handles: '{name}'", "vertices", which, cure) from None
     if array.dtype == bool and array.ndim == 1:
         return Handle(name, _as_indices(name, np.flatnonzero(array)), mask_length=len(array))
     return Handle(name, _as_indices(name, array))

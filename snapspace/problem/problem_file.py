@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from ..arguments import as_path
+from ..arguments import as_path, require_type
 from ..filling import stuff_surface
 from ..mesh import (
     Body,
@@ -80,6 +80,8 @@ def read_problem(
     path = as_path("read_problem", path)
     content = _load(path)
     with within(path):
+        cure = "give a TetMesh or ShellMesh"
+        require_type("read_problem", "mesh", mesh, TetMesh | ShellMesh | None, cure)
         if mesh is None:
             mesh = _mesh(path, content, repair=repair)
         check_look(content)

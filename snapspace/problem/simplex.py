@@ -134,6 +134,7 @@ class Simplex:
             If False, corners come in their own order, and the Sobol sequence is not scrambled.
         """
         require_count("Simplex", "count", count, at_least=1)
+        require_count("Simplex", "seed", seed, at_least=0)
         inside = self.from_unit(sobol_points(self.dimension, count, seed=seed, scramble=scramble))
         order = np.arange(self.corners)
         if scramble:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import as_coordinates, as_numbers
 from ..cubature import BlendedCubature, BlendedStars, BlendedSum, WeightedCubature
 from ..mesh import ShellMesh
 from ..problem import CertainRange, InterpolationProblem, certain_range
@@ -57,15 +58,21 @@ class InterpolationModel(ReducedModel):
         return certain_range(self.problem.material, self.blends.corners[:-1])
 
     def elastic(self, weights: ArrayLike) -> Quartic | WeightedCubature | FullEnergy:
-        """The reduced energy for weights (poses,)."""
-        return self.blends.at(weights)
+        """The reduced energy for any weights (poses,); ValueError for another number of them."""
+        w = as_numbers("InterpolationModel", "weights", weights)
+        if w.shape != (self.problem.parameter_count,):
+            raise ValueError(
+                f"InterpolationModel: weights have shape {w.shape}, but must be "
+                f"({self.problem.parameter_count},), one per pose"
+            )
+        return self.blends.at(w)
 
     def value(self, q: FloatArray, weights: ArrayLike) -> float:
         """Reduced objective at coordinates (d,).
 
         Equal to F at tau + U q, except for the cubature's error.
         """
-        return self.elastic(weights).value(q)
+        return self.elastic(weights).value(as_coordinates("InterpolationModel", q, self.dimension))
 
     def leading(self, dimension: int) -> InterpolationModel:
         """The model on the first coordinates; nothing is computed anew."""

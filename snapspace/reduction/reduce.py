@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any, overload
 
-from ..arguments import require_count
+from ..arguments import require_count, require_type
 from ..cubature import BlendedSum, Cubature, train_blended_cubature, train_cubature
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem, is_quartic
@@ -131,8 +132,8 @@ def reduce(
         If the subspace belongs to another mesh, is not attached to the problem's tau or has a basis
         that is not M-orthonormal; if the surface belongs to another mesh; if the material does not
         allow the energy; if the snapshots are of another problem, or too few of them converged for
-        a cubature; or if `tets` is given without a cubature or is not between 1 and the number of
-        tets of the mesh.
+        a cubature; if `tets` is given without a cubature or is not between 1 and the number of tets
+        of the mesh; or if the provenance is not valid JSON.
 
     Warns
     -----
@@ -141,8 +142,8 @@ def reduce(
     """
     checked_threads(threads, "reduce")
     require_count("reduce", "seed", seed, at_least=0)
-    if tets is not None:
-        require_count("reduce", "tets", tets)
+    tets = None if tets is None else require_count("reduce", "tets", tets)
+    record = _record(provenance)
     check_attached(problem, subspace, who="reduce")
     check_orthonormal(subspace, who="reduce")
     shown = surface_in(problem.mesh, surface, who="reduce")
@@ -160,7 +161,6 @@ def reduce(
     if kind != "full":  # full models are not saved to files
         subspace = subspace.in_single_precision()
     parameters, coordinates = training_samples(problem, subspace, used)
-    record = dict(provenance or {})
     if isinstance(problem, InterpolationProblem):
         blends: PoseQuartics | BlendedSum | FullBlends
         if kind == "exact":
@@ -206,6 +206,20 @@ def reduce(
         training_coordinates=coordinates,
         provenance=record,
     )
+
+
+def _record(provenance: dict[str, Any] | None) -> dict[str, Any]:
+    """A copy of the record; ValueError now unless a file can store it."""
+    require_type("reduce", "provenance", provenance, dict | None, "give a dict, or None")
+    record = dict(provenance or {})
+    try:
+        json.dumps({**record, "cubature": {}}, sort_keys=True)
+    except (TypeError, ValueError) as error:
+        raise ValueError(
+            f"reduce: provenance must be valid JSON with strings as keys ({error}); give numbers "
+            "of Python, such as float(x), strings, lists and dicts"
+        ) from None
+    return record
 
 
 def _check_snapshots(

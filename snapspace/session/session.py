@@ -191,10 +191,10 @@ class Session(TimeSteps[Model], NotPickled, ABC):
             )
         cure = "give a function without arguments, or None"
         require_type("polish", "should_stop", should_stop, Callable | None, cure)
-        if iterations < 0 or not tolerance > 0:
+        if iterations < 0 or not 0 < tolerance < np.inf:
             raise ValueError(
                 f"polish: iterations {iterations} must not be negative, and tolerance {tolerance} "
-                "must be positive"
+                "must be positive and finite"
             )
         q = self.q
         if self._polisher is None or self._polisher.dimension != len(q):

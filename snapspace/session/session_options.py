@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .. import _core as core
-from ..arguments import is_number, is_whole, shown, wrong_type
+from ..arguments import is_finite, is_number, is_whole, shown, wrong_type
 
 MINIMIZERS = {"newton": core.Method.newton, "bfgs": core.Method.bfgs}
 PRECISIONS = ("double", "single")
@@ -18,10 +18,12 @@ def check_options(
     for name, count in (("max_iterations", max_iterations), ("max_evaluations", max_evaluations)):
         if not is_whole(count):
             raise wrong_type("Session", name, count, "give a whole number")
-    if not tolerance > 0 or not all(1 <= n < 2**31 for n in (max_iterations, max_evaluations)):
+    bounds = (max_iterations, max_evaluations)
+    if not is_finite(tolerance) or tolerance <= 0 or not all(1 <= n < 2**31 for n in bounds):
         raise ValueError(
             f"Session: tolerance {tolerance}, max_iterations {max_iterations} and "
-            f"max_evaluations {max_evaluations} must be positive, the last two below 2^31"
+            f"max_evaluations {max_evaluations} must be positive and finite, the last two below "
+            "2^31"
         )
     if minimizer not in tuple(MINIMIZERS):
         raise ValueError(

@@ -85,6 +85,7 @@ class Snapshots:
         cure = "give an array (k, p), one row per sample"
         require_type("Snapshots", "parameters", self.parameters, np.ndarray, cure)
         require_type("Snapshots", "reports", self.reports, Sequence, "give a list of SampleReport")
+        require_type("Snapshots", "gram", self.gram, SnapshotGram | None, "leave it out")
         counts = len(self.parameters), len(self.displacements), len(self.reports)
         if len(set(counts)) > 1:
             raise ValueError(

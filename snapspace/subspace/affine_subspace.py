@@ -12,7 +12,7 @@ from .. import _core as core
 from ..arguments import as_numbers, require_dimension, require_type
 from ..blas import single_threaded_blas
 from ..displacements import DisplacementRows, shared_mass
-from ..mesh import apply_mass, shape_or_rows
+from ..mesh import apply_mass, check_mass, shape_or_rows
 
 FloatArray = NDArray[np.float64]
 
@@ -28,12 +28,34 @@ class AffineSubspace:
     beyond the last column. For every d, the sum of the entries beyond d is the squared error of the
     first d columns. For a PCA in M the entries are eigenvalues of the Gram matrix. None for a basis
     that was not made from snapshots
+
+    `affine_subspace` makes one from any directions. Raises ValueError for arrays of other shapes or
+    types, and for another mass matrix.
     """
 
     tau: FloatArray
     basis: FloatArray
     mass: csr_array
     snapshot_energies: FloatArray | None = None
+
+    def __post_init__(self) -> None:
+        who = "AffineSubspace"
+        for name, axes in (("tau", 1), ("basis", 2), ("snapshot_energies", 1)):
+            array = getattr(self, name)
+            if array is None and name == "snapshot_energies":
+                continue
+            require_type(who, name, array, np.ndarray, f"give an array of {axes} axes")
+            if array.ndim != axes or array.dtype.kind not in "fiu":
+                raise ValueError(
+                    f"{who}: {name} must be numbers with {axes} axes, got {array.dtype} of shape "
+                    f"{array.shape}"
+                )
+        check_mass(self.mass, self.tau.size, who=who)
+        if len(self.basis) != self.tau.size:
+            raise ValueError(
+                f"{who}: the basis is {self.basis.shape}, but tau has {self.tau.size} coordinates; "
+                f"give ({self.tau.size}, d), one direction per column"
+            )
 
     @property
     def dimension(self) -> int:

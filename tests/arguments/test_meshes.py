@@ -56,6 +56,74 @@ WRONG: dict[str, tuple[Call, str]] = {
         lambda m, s: s.problem.value_and_gradient(np.zeros(3), s.parameters[0]),
         "ElasticEnergy: the shape has 3 coordinates, but the mesh has 81 vertices, which need 243",
     ),
+    "a mask of vertices to follow": (
+        lambda m, s: m.surface.following(np.arange(81) < 5),
+        "EmbeddedSurface: vertices must be indices of tet vertices, but are bool; np.flatnonzero(",
+    ),
+    "transposed vertices": (
+        lambda m, s: s.problem.value_and_gradient(s.problem.mesh.vertices.T, s.parameters[0]),
+        "ElasticEnergy: the shape has shape (3, 81), but must be (81, 3), one row per vertex, or (",
+    ),
+    "transposed vertices at handles": (
+        lambda m, s: s.problem.handle_energy(
+            s.problem.mesh.vertices.T, s.problem.offsets(s.parameters[0])
+        ),
+        "PosingProblem: the shape has shape (3, 81), but must be (81, 3)",
+    ),
+    "a transposed direction": (
+        lambda m, s: s.problem.energy.hessian_product(s.problem.tau, s.problem.mesh.vertices.T),
+        "ElasticEnergy: the direction has shape (3, 81), but must be (81, 3)",
+    ),
+    "complex numbers": (
+        lambda m, s: s.problem.energy.value(s.problem.tau + 1j),
+        "ElasticEnergy: the shape must be numbers, in rows of one length, but are of type ndarray",
+    ),
+    "weights of a surface in words": (
+        lambda m, s: ss.EmbeddedSurface(m.surface.faces, m.surface.corners, "x"),  # type: ignore[arg-type]
+        "EmbeddedSurface: weights must be numbers, in rows of one length, but are of type str",
+    ),
+    "the name of a surface's file": (
+        lambda m, s: ss.EmbeddedSurface(
+            m.surface.faces,
+            m.surface.corners,
+            m.surface.weights,
+            "spot.obj",  # type: ignore[arg-type]
+        ),
+        "EmbeddedSurface: source is of type str; give open_surface(path)",
+    ),
+    "a name as the progress of filling": (
+        lambda m, s: ss.stuff_surface(
+            s.problem.mesh.vertices,
+            s.problem.mesh.surface,
+            progress="bar",  # type: ignore[arg-type]
+        ),
+        "stuff_surface: progress is of type str; give a function, or None",
+    ),
+    "ragged vertices of a handle": (
+        lambda m, s: ss.Handles([[[1, 2], [3]], [4]], names=["foot", "head"]),
+        "Handles: 'foot': vertices is of type list; give a list of vertex indices or a boolean",
+    ),
+    "vertices as the name of a handle": (
+        lambda m, s: s.problem.handles.without(np.arange(3)),
+        "there is no handle 'an array of shape (3,)'; the handles are ",
+    ),
+    "complex bounds": (
+        lambda m, s: ss.HandleBox(translation=np.ones(3) * 1j, angle=0.1),
+        "HandleBox: translation must be one number, three, or three for each moving handle, got",
+    ),
+    "threads that are not a number": (
+        lambda m, s: ss.fit_poses(
+            s.problem.mesh,
+            m.surface,
+            [m.surface.vertices(s.problem.mesh.vertices)],
+            threads=np.nan,  # type: ignore[arg-type]
+        ),
+        "fit_poses: threads is nan, but must be a whole number, or None",
+    ),
+    "the seed of blends in words": (
+        lambda m, s: ss.Simplex(corners=5).blends(3, seed="a"),  # type: ignore[arg-type]
+        "Simplex: seed is 'a', but must be a whole number",
+    ),
     "handles of a shape of another mesh": (
         lambda m, s: s.problem.handle_energy(np.zeros(300), s.problem.offsets(s.parameters[0])),
         "PosingProblem: the shape has 300 coordinates, but the mesh has 81 vertices",

@@ -22,6 +22,26 @@ def pca(snapshots: Any, **changed: Any) -> ss.AffineSubspace:
 
 
 WRONG: dict[str, tuple[Call, str]] = {
+    "a basis as lists": (
+        lambda m, s: replace(m.subspace, basis=m.subspace.basis.tolist()),
+        "AffineSubspace: basis is of type list; give an array of 2 axes",
+    ),
+    "a basis as rows": (
+        lambda m, s: replace(m.subspace, basis=m.subspace.basis.T),
+        "AffineSubspace: the basis is (20, 243), but tau has 243 coordinates; give (243, d), one",
+    ),
+    "complex vibration modes": (
+        lambda m, s: replace(m.subspace, basis=m.subspace.basis * 1j),
+        "AffineSubspace: basis must be numbers with 2 axes, got complex128 of shape (243, 20)",
+    ),
+    "a dense mass matrix of a subspace": (
+        lambda m, s: replace(m.subspace, mass=m.subspace.mass.toarray()),
+        "AffineSubspace: mass is of type ndarray; give mass_matrix(mesh) or problem.mass()",
+    ),
+    "a mass matrix in another format": (
+        lambda m, s: pca(s, mass=s.problem.mass().tocoo()),
+        "pca: mass is of type coo_array; give scipy.sparse.csr_array(mass)",
+    ),
     "a basis to widen": (
         lambda m, s: ss.widen(m.subspace.basis, s, dimension=30),
         "widen: subspace is of type ndarray; give that of snapshot_pca or affine_subspace",

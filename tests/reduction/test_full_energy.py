@@ -111,7 +111,7 @@ def test_poses_without_weight_are_not_evaluated(
 
 @pytest.mark.parametrize("weights", [[0.5, 0.5], [0.2, 0.5, 0.3, 0.0]])
 def test_every_pose_needs_a_weight(full_blends: InterpolationModel, weights: list[float]) -> None:
-    with pytest.raises(ValueError, match="argument 2 is"):
+    with pytest.raises(ValueError, match=r"but must be \(3,\), one per pose"):
         full_blends.elastic(weights)
 
 

@@ -94,6 +94,15 @@ def rigid_directions(x: FloatArray) -> list[FloatArray]:
     return shifts + [np.cross(axis, points).reshape(-1) for axis in np.eye(3)]
 
 
+def test_weights_or_coordinates_of_another_model_are_refused(
+    blending_model: InterpolationModel,
+) -> None:
+    with pytest.raises(ValueError, match=r"weights have shape \(2,\), but must be \(3,\)"):
+        blending_model.elastic(WEIGHTS[:2])
+    with pytest.raises(ValueError, match="InterpolationModel: q must be numbers"):
+        blending_model.value("q", WEIGHTS)  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize("name", ["blending_model", "helix_model"])
 def test_the_subspace_holds_no_rigid_motion_of_the_mean_shape(
     name: str, request: pytest.FixtureRequest
