@@ -2,21 +2,32 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
 
 from snapspace import (
     AccurateModel,
+    CertainRange,
+    Checkpoint,
+    Cubature,
+    ElasticEnergy,
     ErrorCurve,
     ErrorEstimator,
     ErrorSplit,
     Growth,
+    LocalRows,
     Polished,
+    PoseFit,
+    PoseFits,
     PosingModel,
     Predictions,
+    SnapshotGram,
     Snapshots,
+    StVK,
     Validation,
+    mend_surface,
     mode_targets,
     predicted_solutions,
     sample,
@@ -94,6 +105,46 @@ def test_what_has_many_numbers_prints_its_sizes(posing_model: PosingModel) -> No
     assert repr(estimator) == f"ErrorEstimator(dimension {d}, calibrated with 4 frames)"
     both = replace(estimator, movement_ratios=np.ones(4))
     assert repr(both).endswith("calibrated with 4 frames, also for polished ones)")
+
+
+def test_sessions_and_energies_print_their_sizes(posing_model: PosingModel) -> None:
+    problem, d = posing_model.problem, posing_model.dimension
+    session = posing_model.session()
+    session.dimension = 7
+    assert repr(session) == f"PosingSession(dimension 7, {posing_model!r})"
+    energy = ElasticEnergy(problem.mesh, StVK())
+    assert repr(energy) == f"ElasticEnergy({problem.mesh!r}, {StVK.title})"
+    assert repr(posing_model.handles) == f"HandleQuadric(dimension {d}, 3 handles)"
+    coefficients = math.comb(d + 4, 4)
+    assert repr(posing_model.elastic) == f"Quartic(dimension {d}, {coefficients} coefficients)"
+    tets = np.arange(8, dtype=np.int32)
+    rows = LocalRows(
+        np.array([[8, 2]], np.int32), np.zeros(144, np.float32), np.zeros((2, 5), np.float32)
+    )
+    assert repr(rows) == "LocalRows(dimension 5, 8 tets, 1 clusters)"
+    assert repr(Cubature(tets, np.ones(8), rows, StVK())) == "Cubature(dimension 5, 8 tets)"
+    corners = problem.mesh.vertices[problem.mesh.tets]
+    certain = CertainRange(np.stack([corners, 2.0 * corners]))
+    assert repr(certain) == f"CertainRange(2 poses, {len(corners)} forms each)"
+    assert repr(SnapshotGram.of(problem)) == "SnapshotGram(0 displacements)"
+    assert repr(Checkpoint("runs")) == "Checkpoint('runs')"
+
+
+def test_fits_and_mended_surfaces_print_what_is_left() -> None:
+    fit = PoseFit("calm", 2e-4, 1e-3, 0, 0.5, 2.0, 3, 20, 0.1, "converged")
+    assert (
+        repr(PoseFits(np.zeros((1, 4, 3)), [fit]))
+        == "PoseFits(1 poses, surfaces within 2.0e-04 rms)"
+    )
+    missed = replace(fit, rms=3e-3, status="stiffness_limit")
+    assert repr(PoseFits(np.zeros((2, 4, 3)), [fit, missed])) == (
+        "PoseFits(2 poses, 1 of them farther than the goal, surfaces within 3.0e-03 rms)"
+    )
+    corners = np.vstack([np.zeros(3), np.eye(3)])
+    mended = mend_surface(corners, [[0, 1, 3], [0, 2, 1], [0, 3, 2]])
+    assert (
+        repr(mended) == f"MendedSurface(4 vertices, 4 faces, 1 of them invented: {mended.notes[0]})"
+    )
 
 
 def test_a_polished_frame_prints_how_far_it_moved(posing_snapshots: Snapshots) -> None:

@@ -103,6 +103,9 @@ class Cubature:
         arguments = self.tets, self.weights, self.stored_rows, self.material, self.remainder
         return type(self), arguments
 
+    def __repr__(self) -> str:
+        return f"Cubature(dimension {self.dimension}, {len(self.tets)} tets)"
+
     @property
     def rows(self) -> NDArray[np.float32]:
         """Displacement gradients of the modes, (r, 9, d)."""

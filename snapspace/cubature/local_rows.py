@@ -34,6 +34,10 @@ class LocalRows:
     rows: NDArray[np.float32]
     modes: NDArray[np.float32]
 
+    def __repr__(self) -> str:
+        sizes = f"{self.tets} tets, {len(self.sizes)} clusters"
+        return f"LocalRows(dimension {self.dimension}, {sizes})"
+
     @property
     def core(self) -> core.TetRows:
         """The rows in the form that compiled energies need."""

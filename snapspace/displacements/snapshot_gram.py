@@ -54,6 +54,9 @@ class SnapshotGram:
         require_problem(problem, "SnapshotGram.of")
         return cls(problem.mass(lumped=lumped), offset=problem.base - problem.tau)
 
+    def __repr__(self) -> str:
+        return f"SnapshotGram({len(self)} displacements)"
+
     def __len__(self) -> int:
         return len(self._rows)
 

@@ -37,6 +37,12 @@ class MendedSurface:
     invented_area: float
     notes: tuple[str, ...]
 
+    def __repr__(self) -> str:
+        invented = f", {self.invented} of them invented" if self.invented else ""
+        done = f": {'; '.join(self.notes)}" if self.notes else ""
+        sizes = f"{len(self.vertices)} vertices, {len(self.faces)} faces{invented}"
+        return f"MendedSurface({sizes}{done})"
+
 
 def mend_surface(
     vertices: ArrayLike, faces: ArrayLike, *, close_holes: bool = True

@@ -87,6 +87,9 @@ class ElasticEnergy:
     def _has_stars(self) -> bool:
         return is_of_stars(self.mesh, self.material)
 
+    def __repr__(self) -> str:
+        return f"ElasticEnergy({self.mesh!r}, {self.material.title})"
+
     def value(self, x: ArrayLike) -> float:
         """Energy at x."""
         return self.value_and_gradient(x)[0]

@@ -64,5 +64,11 @@ class PoseFits:
     shapes: FloatArray
     reports: Sequence[PoseFit]
 
+    def __repr__(self) -> str:
+        missed = sum(not report.converged for report in self.reports)
+        left = f", {missed} of them farther than the goal" if missed else ""
+        worst = max((report.rms for report in self.reports), default=0.0)
+        return f"PoseFits({len(self)} poses{left}, surfaces within {worst:.1e} rms)"
+
     def __len__(self) -> int:
         return len(self.reports)

@@ -67,6 +67,9 @@ class CertainRange:
         self._alphas = alphas / alphas.mean(axis=0)
         self._domain = Simplex(corners=len(squares))
 
+    def __repr__(self) -> str:
+        return f"CertainRange({self.poses} poses, {self._squares.shape[1]} forms each)"
+
     @property
     def poses(self) -> int:
         """Number of weights."""

@@ -32,6 +32,9 @@ class HandleQuadric:
     L: FloatArray
     S: FloatArray
 
+    def __repr__(self) -> str:
+        return f"HandleQuadric(dimension {len(self.K)}, {len(self.L)} handles)"
+
     def value(self, q: ArrayLike, offsets: ArrayLike) -> float:
         """Handle energy at coordinates (d,) for offsets (h, 3, 4); ValueError otherwise."""
         q = as_coordinates("HandleQuadric", q, len(self.K))

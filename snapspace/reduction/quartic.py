@@ -54,6 +54,9 @@ class Quartic:
         """The compiled quartic, with a copy of the coefficients in the fastest order."""
         return core.Quartic(self.dimension, self.coefficients)
 
+    def __repr__(self) -> str:
+        return f"Quartic(dimension {self.dimension}, {len(self.coefficients)} coefficients)"
+
     def value(self, q: ArrayLike) -> float:
         """Energy at q (d,)."""
         return self.value_and_gradient(q)[0]

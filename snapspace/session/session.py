@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..arguments import is_number, is_whole, require_type, shown, wrong_type
+from ..arguments import is_number, is_whole, require_dimension, require_type, shown
 from ..certificate import Certificate, ResidualProbe, ResidualSample, residual_probe
 from .certify import certify
 from .display_shapes import DisplayShapes, Vertices
@@ -81,6 +81,9 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         self._probe: tuple[ResidualSample, ResidualProbe] | None = None
         self.reset()
 
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}(dimension {self.dimension}, {self.model!r})"
+
     @property
     def dimension(self) -> int:
         """Number of coordinates that are solved for: at first all of the model's.
@@ -94,13 +97,7 @@ class Session(TimeSteps[Model], NotPickled, ABC):
 
     @dimension.setter
     def dimension(self, dimension: int) -> None:
-        if not is_whole(dimension):
-            raise wrong_type("Session", "dimension", dimension, "give a whole number")
-        if not 1 <= dimension <= self.model.dimension:
-            raise ValueError(
-                f"Session: dimension {dimension} is not between 1 and the model's, "
-                f"{self.model.dimension}"
-            )
+        require_dimension("Session", dimension, self.model.dimension)
         self._loop.dimension = dimension
 
     @property

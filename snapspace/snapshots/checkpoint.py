@@ -69,6 +69,9 @@ class Checkpoint:
     def __init__(self, folder: str | Path) -> None:
         self.folder = as_path("Checkpoint", folder, what="folder")
 
+    def __repr__(self) -> str:
+        return f"Checkpoint({str(self.folder)!r})"
+
     @classmethod
     def beside(cls, output: Path, key: str) -> Checkpoint:
         """The checkpoint of a run that writes `output`: a folder beside it, named by its key."""

@@ -87,7 +87,7 @@ def test_a_dimension_that_the_model_does_not_have_is_refused(
     posing_model: PosingModel, dimension: int
 ) -> None:
     session = posing_model.session()
-    message = f"Session: dimension {dimension} is not between 1 and the model's, 20"
+    message = f"Session: dimension {dimension} is not between 1 and 20; give a number up to that"
     with pytest.raises(ValueError, match=re.escape(message)):
         session.dimension = dimension
     assert session.dimension == 20
