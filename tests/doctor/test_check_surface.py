@@ -184,7 +184,13 @@ def test_a_moebius_strip_has_no_orientation() -> None:
     ("vertices", "faces", "message"),
     [
         (np.empty((0, 3)), np.empty((0, 3), int), r"it has no faces \(0 vertices\)"),
-        (np.eye(3), np.empty((0, 3), int), r"it has no faces \(3 vertices\)"),
+        (np.eye(3), np.empty((0, 3), int), r"^check_surface: it has no faces \(3 vertices\)"),
+        (np.eye(3), [], r"^check_surface: it has no faces \(3 vertices\)"),
+        (
+            np.eye(3),
+            [[0, 1, 2], [1]],
+            "^check_surface: faces is not a rectangular array",
+        ),
         (np.eye(3) * np.nan, [[0, 1, 2]], "check_surface: vertex 0 is not finite"),
         (np.eye(3), [[0, 1, 3]], "check_surface: face 0 has vertex index 3"),
     ],

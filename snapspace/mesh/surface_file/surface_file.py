@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...arguments import as_path, require_type
 from ...disk.atomic_file import atomic_file
-from ...input_error import located
+from ...input_error import InputError, located
 from ..arrays import FloatArray, IndexArray, as_indices, as_points
 from ..input_path import existing_file, writable_path
 from ..polygons import fan_corners
@@ -267,8 +267,12 @@ def checked_surface(
 ) -> tuple[FloatArray, IndexArray]:
     """Vertices (n, 3) and faces (f, 3) of a file; ValueError if they are not a surface."""
     points = as_points(vertices, who=who)
-    if np.asarray(triangles).ndim and not len(np.asarray(triangles)):
-        raise ValueError(f"it has no faces ({len(points)} vertices)")
+    try:
+        shape = np.shape(triangles)
+    except ValueError:  # rows of different lengths, which `as_indices` refuses
+        shape = ()
+    if shape[:1] == (0,):
+        raise InputError(who, f"it has no faces ({len(points)} vertices)")
     faces = as_indices(triangles, corners=3, who=who, what="faces")
     check_points(points, who=who)
     check_indices(faces, len(points), who=who, what="face")
