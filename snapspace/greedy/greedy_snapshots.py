@@ -95,8 +95,8 @@ def greedy_snapshots(
     Raises
     ------
     ValueError
-        For a number out of range, known snapshots of another problem, or a first batch without a
-        usable sample.
+        For an argument of another type, a number out of range, known snapshots of another problem,
+        or a first batch without a usable sample.
     Interrupted
         On Ctrl-C, after the finished samples have been saved.
 

@@ -53,7 +53,7 @@ class InterpolationProblem:
     extrapolation : float, default 0
         Enlarges the sampled simplex by this share about its centre. Outside the simplex F may have
         no minimum; such samples are reported as not converged.
-    mean_shape : array_like, (3n,), optional
+    mean_shape : array_like, (3n,) or (n, 3), optional
         The mean shape, if it is known, as from a model file. Default: computed when it is first
         needed.
 
@@ -61,7 +61,7 @@ class InterpolationProblem:
     ------
     ValueError
         As for `Poses.of` and `ShellPoses.of`, and for moduli of another number of tets, a negative
-        extrapolation, or a mean shape of another size.
+        extrapolation, or a mean shape of other dimensions.
 
     Notes
     -----

@@ -51,7 +51,8 @@ class Session(TimeSteps[Model], NotPickled, ABC):
     Raises
     ------
     ValueError
-        For a tolerance or bound that is not positive, or an unknown minimizer or precision.
+        For a tolerance or bound that is not positive and finite, or an unknown minimizer or
+        precision.
     """
 
     default_tolerance = 1e-7
@@ -171,7 +172,7 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         ------
         ValueError
             For a number of iterations that is negative or not a whole number, a tolerance that is
-            not positive, or a `should_stop` that is not a function.
+            not positive and finite, or a `should_stop` that is not a function.
         KeyboardInterrupt
             On Ctrl-C, within the time of one iteration.
 
