@@ -55,7 +55,8 @@ class ElasticEnergy:
     `ARAP`.
 
     Every method takes a shape vector x (3n,) of positions, or vertices (n, 3), and raises
-    ValueError for another shape. Energies are invariant under rigid motions of x and vanish at rest.
+    ValueError for another shape. Energies are invariant under rigid motions of x, and vanish at
+    rest.
     """
 
     def __init__(self, mesh: Body, material: Material, *, bending: Bending = "angle") -> None:
