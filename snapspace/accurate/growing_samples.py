@@ -47,6 +47,8 @@ class GrowingSamples:
         Whether held-out samples are predicted as well. Where there may be several minima, held-out
         samples must not depend on a model. Where there is only one, a model's Hessians lead closer
         to it.
+    judging_seed : int, optional
+        Seed of the held-out samples. Default: they are a part of the sequence.
     """
 
     def __init__(
@@ -61,14 +63,21 @@ class GrowingSamples:
         pilot: int = 0,
         slow: float = 0.0,
         judges_too: bool = False,
+        judging_seed: int | None = None,
     ) -> None:
         self.problem = problem
         # SciPy's module of Sobol points takes a second to import; meanwhile the problem is prepared
-        self._sampled = begin_abandonable(
-            lambda: sample(problem.domain, most, method=method, seed=seed)
-        )
-        self._slow, self._judges_too = slow, judges_too
         self._judges = range(first, first + held_out)
+
+        def sampled() -> FloatArray:
+            parameters = sample(problem.domain, most, method=method, seed=seed)
+            if judging_seed is not None:
+                judging = sample(problem.domain, held_out, method=method, seed=judging_seed)
+                parameters[self._judges.start : self._judges.stop] = judging
+            return parameters
+
+        self._sampled = begin_abandonable(sampled)
+        self._slow, self._judges_too = slow, judges_too
         self._pilot = pilot if pilot <= first else pilot + held_out  # where its samples end
         self._snapshots: Snapshots | None = None
         self._first_known: Snapshots | None = None  # where the first solves start

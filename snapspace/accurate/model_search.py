@@ -20,7 +20,7 @@ from .early_parts import make_early_parts
 from .growing_samples import GrowingSamples
 from .largest_pca import largest_pca, widened_pca
 from .measured_ratio import measured_ratio
-from .old_model import OldModel, check_start, usual_shapes
+from .old_model import OldModel, check_start, judging_seed, usual_shapes
 from .plan import is_large, plan_of, predicted_most_samples, usual_most_samples
 from .predicting import MOST_DIMENSIONS, Predicting, predicting_stars
 from .restricted_model import restricted_model, with_starts
@@ -42,10 +42,8 @@ class ModelSearch:
     Parameters
     ----------
     problem : PosingProblem or InterpolationProblem
-    options : SearchOptions
-        Target and limits.
-    solving : Solving
-        How samples are solved.
+    options, solving : SearchOptions, Solving
+        Target and limits, and how samples are solved.
     start : PosingModel, optional
         A model of other handles, see `accurate_model`.
     surface, tell, begins : as for `reduce`, `accurate_model` and `growing_models`
@@ -103,6 +101,7 @@ class ModelSearch:
             slow=self._plan.slow,
             judges_too=self._plan.trusts_predictions,
             held_out=self._plan.held_out,
+            judging_seed=judging_seed(start, options.seed),
         )
         self.steps: list[Step] = []
         self.best: Trial | None = None

@@ -211,3 +211,19 @@ def test_bad_starts_are_refused(tail: PosingProblem, start: PosingModel) -> None
     )
     with pytest.raises(ValueError, match="made without snapshots"):
         accurate_model(tail, start=bare)
+
+
+def test_held_out_motions_are_not_those_of_the_old_model_in_a_wider_box(
+    motions: PosingProblem, start: PosingModel
+) -> None:
+    """With the same seed their angles would be those of training motions: errors seem smaller."""
+    box = motions.domain
+    wider = motions.with_handles(
+        motions.handles, domain=replace(box, translation=1.2 * np.array(box.translation))
+    )
+    built = accurate_model(wider, start=start, target_error=0.9)
+    judging = built.snapshots.parameters[built.held_out]
+    apart = wider.domain.to_unit(judging)[:, None] - box.to_unit(start.training_parameters)
+    assert np.abs(apart).max(axis=2).min() > 0.01
+    again = accurate_model(wider, start=start, target_error=0.9)
+    assert np.array_equal(again.snapshots.parameters, built.snapshots.parameters)
