@@ -157,7 +157,8 @@ def accurate_model(
     options, threads, progress, checkpoint, executor : as for `solve_snapshots`
     start : PosingModel, optional
         A model of the same mesh with other handles, just made or loaded: handles may have been
-        added, removed or moved. The first new model is then made from its shapes, and from loosely
+        added, removed or moved. Bounds and material may differ as well.
+        The first new model is then made from its shapes, and from loosely
         solved shapes that start from its predictions for the new handles. The new model has up to
         2.4 times the error of one made from scratch, after a sixth to two thirds of the time.
         Unless it meets the target, samples are solved starting from its solutions, and later bases
@@ -178,9 +179,9 @@ def accurate_model(
     ------
     ValueError
         For something other than a problem, a target that is not between 0 and 1, a budget that is
-        not positive, fewer than 20 samples, or no usable ones. Also for a `start` of another mesh,
-        without training shapes, or that differs in more than its handles, for a surface of another
-        mesh, and for an argument of another type.
+        not positive, fewer than 20 samples, or no usable ones. Also for a `start` of another mesh
+        or without training shapes, for a surface of another mesh, and for an argument of another
+        type.
     Interrupted
         On Ctrl-C, after the finished samples have been saved.
     """
