@@ -44,8 +44,11 @@ FROM_THE_FRONT = """(() => {
 
 
 @pytest.fixture
-def moving(posing_page: Path, opened: OpenPage) -> Page:
-    page = opened(posing_page.as_uri())
+def moving(posing: Page) -> Page:
+    return selecting_the_head(posing)
+
+
+def selecting_the_head(page: Page) -> Page:
     page.page.keyboard.press("2")
     page.settle()
     return page
@@ -160,10 +163,11 @@ def test_after_a_cancelled_drag_the_gizmo_works_as_before(moving: Page) -> None:
     assert page.run("snapspace.stage.scene.getObjectByName('gizmo').visible")
 
 
-def test_a_press_without_a_drag_is_no_step(moving: Page) -> None:
-    ((x, y),) = in_window(moving, ON_ARROW * np.eye(3)[0])
-    moving.drag((x, y), 0, 0)
-    assert moving.run(f"{UNDO}.disabled")
+def test_a_press_without_a_drag_is_no_step(posing_page: Path, opened: OpenPage) -> None:
+    page = selecting_the_head(opened(posing_page.as_uri()))
+    ((x, y),) = in_window(page, ON_ARROW * np.eye(3)[0])
+    page.drag((x, y), 0, 0)
+    assert page.run(f"{UNDO}.disabled")
 
 
 @pytest.mark.parametrize("view", ["Numpad7", "Numpad8", "Numpad9"])
