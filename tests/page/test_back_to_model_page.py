@@ -9,9 +9,9 @@ import pytest
 
 from snapspace import InterpolationModel, PosingModel
 
+from ..server.in_process import started
 from .choosing_page import cancel, compute, handles, press, wait_for_text
 from .pages import OpenPage, Page
-from .serving import served
 
 KEYS = "snapspace.timeline.timeline.keys.length"
 
@@ -53,54 +53,53 @@ def folder(posing_model: PosingModel, tmp_path_factory: pytest.TempPathFactory) 
     return folder
 
 
+@pytest.fixture(scope="module")
+def given(folder: Path, posing_model: PosingModel) -> str:
+    """The address of a server that has the model."""
+    return started(model=posing_model, title="given", folder=folder)
+
+
 def test_the_servers_model_is_posed_again(
-    folder: Path, posing_model: PosingModel, opened: OpenPage, chromium: object
+    given: str, posing_model: PosingModel, opened: OpenPage
 ) -> None:
-    with served(folder / "given.snapspace", cwd=folder) as address:
-        page = opened(address)
-        posed(page)
-        motions = page.motions()
-        choose(page)
-        back(page)
-        assert_as_left(page, motions)
-        assert page.run("snapspace.session.model.dimension") == posing_model.dimension
-        press(page, "Save")
-        wait_for_text(page, "#panel", "Saved given-2.json, given-2.snapspace")
+    page = opened(given)
+    posed(page)
+    motions = page.motions()
+    choose(page)
+    back(page)
+    assert_as_left(page, motions)
+    assert page.run("snapspace.session.model.dimension") == posing_model.dimension
+    press(page, "Save")
+    wait_for_text(page, "#panel", "Saved given-2.json, given-2.snapspace")
 
-        choose(page)
-        page.page.reload()
-        page.wait("snapspace.kind === 'choosing'")
-        back(page)
-        page.page.reload()
-        page.wait("snapspace.kind === 'posing'")
-
-        page.close()  # before its server, which it would miss
+    choose(page)
+    page.page.reload()
+    page.wait("snapspace.kind === 'choosing'")
+    back(page)
+    page.page.reload()
+    page.wait("snapspace.kind === 'posing'")
 
 
-def test_a_model_stays_if_there_is_none_of_other_handles(
-    folder: Path, opened: OpenPage, chromium: object
-) -> None:
-    with served(folder / "given.snapspace", cwd=folder) as address:
-        page, other = opened(address), opened(address)
-        choose(page)
-        ranges(page, travel=0.0, degrees=0.0)
-        press(page, "Compute")
-        wait_for_text(page, ".fault", "All bounds are zero")
-        back(page)
+def test_a_model_stays_if_there_is_none_of_other_handles(given: str, opened: OpenPage) -> None:
+    page, other = opened(given), opened(given)
+    choose(page)
+    ranges(page, travel=0.0, degrees=0.0)
+    press(page, "Compute")
+    wait_for_text(page, ".fault", "All bounds are zero")
+    back(page)
 
-        choose(other)
-        ranges(other, travel=0.5, degrees=120.0)
-        compute(other, most_samples=20_000, percent=0.01)
-        other.wait("snapspace.kind === 'posing'")  # the first model, which others follow
-        choose(page)
-        ranges(page, travel=0.5, degrees=90.0)
-        press(page, "Compute")
-        wait_for_text(page, "#panel", "Waiting for another computation")
-        assert page.page.get_by_role("button", name="Pose", exact=True).is_hidden()
-        cancel(page)
-        back(page)
-        for one in (page, other):
-            one.close()  # before their server, which they would miss
+    choose(other)
+    ranges(other, travel=0.5, degrees=120.0)
+    compute(other, most_samples=20_000, percent=0.01)
+    other.wait("snapspace.kind === 'posing'")  # the first model, which others follow
+    choose(page)
+    ranges(page, travel=0.5, degrees=90.0)
+    press(page, "Compute")
+    wait_for_text(page, "#panel", "Waiting for another computation")
+    assert page.page.get_by_role("button", name="Pose", exact=True).is_hidden()
+    cancel(page)
+    cancel(other)
+    back(page)
 
 
 def test_a_model_that_was_dropped_is_posed_again(
@@ -119,21 +118,20 @@ def test_a_model_that_was_dropped_is_posed_again(
 
 
 def test_a_model_of_poses_is_blended_again(
-    blending_model: InterpolationModel, tmp_path: Path, opened: OpenPage, chromium: object
+    blending_model: InterpolationModel, tmp_path: Path, opened: OpenPage
 ) -> None:
     names, weights = blending_model.problem.poses.names, (0.5, 0.3, 0.2)
     blend = ";".join(f"{name}:{weight}" for name, weight in zip(names, weights, strict=True))
-    with served(blending_model.save(tmp_path / "poses.snapspace"), cwd=tmp_path) as address:
-        page = opened(f"{address}#blend={blend}")
-        press(page, "Add key")
-        shape = page.shown()
-        choose(page)
-        assert page.page.get_by_role("button", name="Pose", exact=True).count() == 0
-        assert page.page.get_by_role("button", name="Save handles").is_hidden()
-        press(page, "Blend")
-        page.wait("snapspace.kind === 'interpolation'")
-        np.testing.assert_allclose(page.run("snapspace.session.weights"), weights)
-        np.testing.assert_allclose(page.shown(), shape, atol=1e-4)
-        assert page.run(KEYS) == 1
-        choose(page)
-        page.close()  # before its server, which it would miss
+    address = started(model=blending_model, title="poses", folder=tmp_path)
+    page = opened(f"{address}#blend={blend}")
+    press(page, "Add key")
+    shape = page.shown()
+    choose(page)
+    assert page.page.get_by_role("button", name="Pose", exact=True).count() == 0
+    assert page.page.get_by_role("button", name="Save handles").is_hidden()
+    press(page, "Blend")
+    page.wait("snapspace.kind === 'interpolation'")
+    np.testing.assert_allclose(page.run("snapspace.session.weights"), weights)
+    np.testing.assert_allclose(page.shown(), shape, atol=1e-4)
+    assert page.run(KEYS) == 1
+    choose(page)

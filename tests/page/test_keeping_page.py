@@ -18,6 +18,7 @@ from snapspace import (
 )
 from snapspace.timeline import timeline_of
 
+from ..server.in_process import started
 from .choosing_page import (
     BAR,
     ENDS,
@@ -30,7 +31,6 @@ from .choosing_page import (
     wait_for_text,
 )
 from .pages import OpenPage, Page
-from .serving import served
 from .test_pull_page import free_vertex, press_pull, window
 from .test_workspace_page import RECORDING, recorded
 
@@ -132,36 +132,35 @@ def test_a_kept_point_becomes_a_handle_without_a_jolt(
 
 
 def test_let_go_and_cancel_stop_computing_and_points_stay_soft(
-    opened: OpenPage, tmp_path: Path, chromium: object
+    opened: OpenPage, tmp_path: Path
 ) -> None:
     ends = Handles(list(ENDS.values()), names=list(ENDS))
     problem = PosingProblem(BAR, ends, domain=HandleBox(translation=0.4, angle=0.5))
-    next(growing_models(problem)).model.save(tmp_path / "bar.snapspace")
-    with served(tmp_path / "bar.snapspace", cwd=tmp_path) as address:
-        page = opened(address)
-        kept(page, (15, -25))
-        wait_for_text(page, "#panel", "The model is being improved for point 1.")
-        press(page, "Let go")
-        cancelled = page.page.get_by_role("button", name="Cancel")
-        cancelled.wait_for(state="hidden")
-        rest = page.shown()
-        kept(page, (15, -25))
-        wait_for_text(page, "#panel", "The model is being improved for point 1.")
-        cancel(page)
-        wait_for_text(page, "#panel", "Soft, but usable: point 1.")
-        assert np.abs(page.shown() - rest).max() > 0.01, "it still holds"
-        press(page, "Make handles")
-        wait_for_text(page, "#panel", "The model is being improved for point 1.")
-        cancel(page)
-        wait_for_text(page, "#panel", "Soft, but usable")
+    model = next(growing_models(problem)).model
+    model.save(tmp_path / "bar.snapspace")
+    page = opened(started(model=model, folder=tmp_path))
+    kept(page, (15, -25))
+    wait_for_text(page, "#panel", "The model is being improved for point 1.")
+    press(page, "Let go")
+    cancelled = page.page.get_by_role("button", name="Cancel")
+    cancelled.wait_for(state="hidden")
+    rest = page.shown()
+    kept(page, (15, -25))
+    wait_for_text(page, "#panel", "The model is being improved for point 1.")
+    cancel(page)
+    wait_for_text(page, "#panel", "Soft, but usable: point 1.")
+    assert np.abs(page.shown() - rest).max() > 0.01, "it still holds"
+    press(page, "Make handles")
+    wait_for_text(page, "#panel", "The model is being improved for point 1.")
+    cancel(page)
+    wait_for_text(page, "#panel", "Soft, but usable")
 
-        page.run(DISCONNECTED)
-        press(page, "HTML")
-        wait_for_text(page, "#panel", "There is no connection to the server.")
-        page.run(CONNECTED)
+    page.run(DISCONNECTED)
+    press(page, "HTML")
+    wait_for_text(page, "#panel", "There is no connection to the server.")
+    page.run(CONNECTED)
 
-        page.page.locator("footer input").set_input_files(tmp_path / "bar.snapspace")
-        page.page.get_by_role("button", name="Cancel").wait_for(state="detached")
-        kept(page, (15, -25))
-        wait_for_text(page, "#panel", "the server does not have this model")
-        page.close()  # before its server, which it would miss
+    page.page.locator("footer input").set_input_files(tmp_path / "bar.snapspace")
+    page.page.get_by_role("button", name="Cancel").wait_for(state="detached")
+    kept(page, (15, -25))
+    wait_for_text(page, "#panel", "the server does not have this model")

@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from snapspace import PosingModel, export_html, load, read_surface
+from snapspace.filling import SurfaceFilling
 from snapspace.mesh import write_surface
+from snapspace.server import SharedBody, problem_body, read_mesh
 
+from ..server.in_process import started
 from .choosing_page import BAR, compute, ends_as_handles, handles, press, tool, wait_for_text
 from .frames import session_at_frame
 from .pages import OpenPage, Page
-from .serving import served
 from .test_posing_page import assert_shown
 
 # Coarser than the tets, and its edges are sharp: quick tets cut them off.
-TETS = ("--edge-length", "0.06")
+FILLING = SurfaceFilling(edge_length=0.06)
 
 
 @pytest.fixture(scope="module")
@@ -30,9 +31,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def address(folder: Path, chromium: object) -> Iterator[str]:
-    with served(folder / "bar.obj", *TETS, cwd=folder) as address:
-        yield address
+def address(folder: Path) -> str:
+    return started(body=SharedBody(read_mesh(folder / "bar.obj", filling=FILLING)), folder=folder)
 
 
 def polished(page: Page, model: PosingModel) -> np.ndarray:
@@ -90,21 +90,20 @@ def assert_saved_shows_the_surface(
     content = json.loads((folder / "bar.json").read_text(encoding="utf-8"))
     assert (content["mesh"], content["surface"]) == ("bar.msh", "bar.obj")
     vertices, _ = read_surface(folder / "bar.obj")
-    with served(folder / "bar.json", cwd=folder) as again:
-        page = opened(again)
-        page.wait("snapspace.kind === 'choosing'")
-        assert page.run("snapspace.choosing.mesh.shape.length") == vertices.size
-        assert handles(page) == chosen, "as painted"
-        page.page.locator("footer input[type=file]").set_input_files(folder / "bar.snapspace")
-        page.wait("snapspace.kind === 'posing'")
-        assert page.run("snapspace.stage.up") == "y"
-        owners = page.numbers("snapspace.session.model.handleOfVertex")
-        for index, name in enumerate(("foot", "head")):
-            assert chosen[name] == set(np.flatnonzero(owners == index).tolist())
-        press(page, "Choose handles")
-        page.wait("snapspace.kind === 'choosing'")
-        assert handles(page) == chosen, "the model remembers what was painted"
-        page.close()  # before its server, which it would miss
+    body = SharedBody(lambda _: problem_body(folder / "bar.json"))
+    page = opened(started(body=body, folder=folder))
+    page.wait("snapspace.kind === 'choosing'")
+    assert page.run("snapspace.choosing.mesh.shape.length") == vertices.size
+    assert handles(page) == chosen, "as painted"
+    page.page.locator("footer input[type=file]").set_input_files(folder / "bar.snapspace")
+    page.wait("snapspace.kind === 'posing'")
+    assert page.run("snapspace.stage.up") == "y"
+    owners = page.numbers("snapspace.session.model.handleOfVertex")
+    for index, name in enumerate(("foot", "head")):
+        assert chosen[name] == set(np.flatnonzero(owners == index).tolist())
+    press(page, "Choose handles")
+    page.wait("snapspace.kind === 'choosing'")
+    assert handles(page) == chosen, "the model remembers what was painted"
     page = opened(export_html(model, folder / "bar.html").as_uri())
     page.drag(page.run("snapspace.handle(1)"), 40, -30)
     assert len(page.shown()) == len(vertices)
@@ -112,17 +111,15 @@ def assert_saved_shows_the_surface(
 
 
 def test_a_surface_that_is_dropped_on_the_page_is_saved_with_its_tets(
-    tmp_path: Path, folder: Path, opened: OpenPage, chromium: object
+    tmp_path: Path, folder: Path, opened: OpenPage
 ) -> None:
-    with served(*TETS, cwd=tmp_path) as empty:
-        page = opened(empty)
-        wait_for_text(page, "#message", "Drop a mesh here")
-        page.page.set_input_files("#message input", folder / "bar.obj")
-        page.wait("snapspace.kind === 'choosing'")
-        ends_as_handles(page)
-        press(page, "Save handles")
-        wait_for_text(page, "#panel", "Saved bar.json, bar.msh, bar.obj")
-        page.close()
+    page = opened(started(title="Snapspace", folder=tmp_path, filling=FILLING))
+    wait_for_text(page, "#message", "Drop a mesh here")
+    page.page.set_input_files("#message input", folder / "bar.obj")
+    page.wait("snapspace.kind === 'choosing'")
+    ends_as_handles(page)
+    press(page, "Save handles")
+    wait_for_text(page, "#panel", "Saved bar.json, bar.msh, bar.obj")
     own, _ = read_surface(folder / "bar.obj")
     again, _ = read_surface(tmp_path / "bar.obj")
     np.testing.assert_allclose(again, own, atol=1e-8)

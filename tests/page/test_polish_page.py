@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -10,23 +9,18 @@ import pytest
 
 from snapspace import PosingModel
 
+from ..server.in_process import started
 from .choosing_page import press
 from .frames import session_at_frame
 from .pages import OpenPage, Page
-from .serving import served
 from .test_jiggle_page import SPEED, damp, jiggle
 from .test_posing_page import assert_shown
 from .test_take_away import taken
 
 
 @pytest.fixture(scope="module")
-def address(
-    posing_model: PosingModel, tmp_path_factory: pytest.TempPathFactory, chromium: object
-) -> Iterator[str]:
-    folder = tmp_path_factory.mktemp("polish")
-    posing_model.save(folder / "bar.snapspace")
-    with served(folder / "bar.snapspace", cwd=folder) as address:
-        yield address
+def address(posing_model: PosingModel, tmp_path_factory: pytest.TempPathFactory) -> str:
+    return started(model=posing_model, folder=tmp_path_factory.mktemp("polish"))
 
 
 def polished(page: Page, model: PosingModel) -> np.ndarray:

@@ -10,6 +10,7 @@ import pytest
 
 from snapspace import InterpolationModel, PosingModel, load, read_problem
 
+from ..server.in_process import started
 from .choosing_page import (
     bar_with_ends,
     cancel,
@@ -22,7 +23,6 @@ from .choosing_page import (
     widen,
 )
 from .pages import OpenPage, Page
-from .serving import served
 from .test_materials_page import make_part, parts
 from .test_posing_page import assert_shown
 
@@ -76,18 +76,15 @@ def test_handles_computation_and_pose_are_there_again(
 
 
 def test_handles_are_chosen_on_the_body_of_a_model(
-    posing_model: PosingModel, tmp_path: Path, opened: OpenPage, chromium: object
+    posing_model: PosingModel, tmp_path: Path, opened: OpenPage
 ) -> None:
-    model = posing_model.save(tmp_path / "given.snapspace")
-    with served(model, cwd=tmp_path) as address:
-        page = opened(address)
-        press(page, "Choose handles")
-        page.wait("snapspace.kind === 'choosing'")
-        found = handles(page)
-        for handle in posing_model.problem.handles:
-            assert found[handle.name] == set(handle.vertices.tolist())
-        assert page.text(".hud h1") == "given"
-        page.close()  # before its server, which it would miss
+    page = opened(started(model=posing_model, title="given", folder=tmp_path))
+    press(page, "Choose handles")
+    page.wait("snapspace.kind === 'choosing'")
+    found = handles(page)
+    for handle in posing_model.problem.handles:
+        assert found[handle.name] == set(handle.vertices.tolist())
+    assert page.text(".hud h1") == "given"
 
 
 def test_handles_are_chosen_on_the_first_pose_of_a_blending_model(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 from urllib.request import urlopen
@@ -13,16 +13,15 @@ import pytest
 from snapspace.generators import bar
 from snapspace.mesh import write_tets
 
+from ..server.in_process import started
 from .choosing_page import bar_with_ends, cancel, compute, handles, press, wait_for_text, widen
 from .pages import SECONDS, OpenPage, Page
-from .serving import served
 
 
 @pytest.fixture(scope="module")
-def empty(tmp_path_factory: pytest.TempPathFactory, chromium: object) -> Iterator[str]:
+def empty(tmp_path_factory: pytest.TempPathFactory) -> str:
     """A server without a mesh."""
-    with served(cwd=tmp_path_factory.mktemp("empty")) as address:
-        yield address
+    return started(title="Snapspace", folder=tmp_path_factory.mktemp("empty"))
 
 
 def test_a_mesh_is_uploaded(empty: str, tmp_path: Path, opened: OpenPage) -> None:

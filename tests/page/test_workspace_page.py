@@ -10,8 +10,10 @@ import pytest
 from numpy.typing import NDArray
 
 from snapspace import PosingModel, load, read_problem
+from snapspace.server import SharedBody, problem_body
 from snapspace.timeline import timeline_of
 
+from ..server.in_process import started
 from .choosing_page import (
     BAR,
     bar_with_ends,
@@ -63,7 +65,7 @@ def test_it_is_dragged_while_it_improves_and_saved(
     chosen = handles(page)
     press(page, "Range")
     page.page.get_by_label("Turn, plus or minus").first.fill("30")
-    compute(page, most_samples=140, percent=0.01)
+    compute(page, most_samples=70, percent=0.01)
     page.wait("snapspace.kind === 'posing'")
     wait_for_text(page, "#panel", "Ready to pose, and improving")
     first = page.run(RECORDING)  # before the drag, in which better models may come
@@ -187,15 +189,13 @@ def test_a_problem_shows_its_handles(bar_folder: Path, opened: OpenPage) -> None
     }
     path = bar_folder / "given.json"
     path.write_text(json.dumps(content), encoding="utf-8")
-    with served(path, cwd=bar_folder) as address:
-        page = opened(address)
-        page.wait("snapspace.kind === 'choosing'")
-        assert handles(page) == {name: set(v.tolist()) for name, v in vertices.items()}
-        page.page.locator("summary").click()
-        assert page.page.get_by_label("Handles' stiffness").input_value() == "200"
-        assert page.page.get_by_label("Turn, plus or minus").last.input_value() == "20"
-        assert page.page.get_by_role("button", name="Compute").is_enabled()
-        page.close()  # before its server, which it would miss
+    page = opened(started(body=SharedBody(lambda _: problem_body(path)), folder=bar_folder))
+    page.wait("snapspace.kind === 'choosing'")
+    assert handles(page) == {name: set(v.tolist()) for name, v in vertices.items()}
+    page.page.locator("summary").click()
+    assert page.page.get_by_label("Handles' stiffness").input_value() == "200"
+    assert page.page.get_by_label("Turn, plus or minus").last.input_value() == "20"
+    assert page.page.get_by_role("button", name="Compute").is_enabled()
 
 
 def test_the_end_of_the_server_is_reported_and_posing_continues(
