@@ -56,7 +56,7 @@ def run(command: list[str], source: str) -> None:
 def compiled(folder: Path) -> ctypes.CDLL:
     """All of core/online as one translation unit without exceptions and run-time types."""
     target = folder / "online.so"
-    options = ["-std=c++20", "-O1", "-Wall", "-Wextra", "-fno-exceptions", "-fno-rtti"]
+    options = ["-std=c++20", "-O0", "-Wall", "-Wextra", "-fno-exceptions", "-fno-rtti"]
     linked = ["-shared", "-fPIC", "-Wl,-Bsymbolic", f"-I{CORE}", "-x", "c++", "-"]
     run([*compiler(), *options, *linked, "-o", str(target)], UNIT + COUNTER)
     library = ctypes.CDLL(str(target))
