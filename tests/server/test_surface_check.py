@@ -25,6 +25,8 @@ from snapspace.server.workspace import Workspace
 from ..shapes import bar_problem
 from .test_workspace import Mailbox
 
+COARSE = SurfaceFilling(edge_length=0.5)
+
 
 def scan(
     folder: Path, faces: slice = slice(1, None), *, filling: SurfaceFilling | None = None
@@ -55,16 +57,16 @@ def test_holes_are_found_and_what_closes_them_is_sent(tmp_path: Path) -> None:
 
 
 def test_a_closed_surface_is_fine(tmp_path: Path) -> None:
-    answer = surface_check(scan(tmp_path, slice(None)), 1)
+    answer = surface_check(scan(tmp_path, slice(None), filling=COARSE), 1)
     assert answer.fine and not answer.invented
     assert not [note for note in answer.mended if not note.startswith("dropped")]
 
 
 def test_the_body_says_what_was_mended(tmp_path: Path) -> None:
-    (notice,) = scan(tmp_path, filling=SurfaceFilling()).notices
+    (notice,) = scan(tmp_path, filling=COARSE).notices
     assert notice.startswith("the surface was mended for filling: ")
     assert "closed 1 hole with 1 face" in notice
-    assert scan(tmp_path, slice(None)).notices == ()
+    assert scan(tmp_path, slice(None), filling=COARSE).notices == ()
     assert scan(tmp_path).notices == (), "a shell is not mended"
 
 
@@ -74,7 +76,7 @@ def test_the_body_says_which_materials_are_missing_in_every_form(tmp_path: Path)
     write_surface(path, mesh.vertices, mesh.surface)
     path.write_text(f"mtllib paint.mtl\nusemtl red\n{path.read_text()}")
     with pytest.warns(MeshNotice, match="not found beside"):
-        body = mesh_body(path, stage=lambda *_: None)
+        body = mesh_body(path, stage=lambda *_: None, filling=COARSE)
         shell = reopening(surface_of(body), 0.1, None)(Opening(lambda *_: None))
     (notice,) = body.notices
     assert notice.startswith("not found beside painted.obj")
@@ -103,7 +105,7 @@ def opened(body: Body, folder: Path) -> tuple[Workspace, Mailbox]:
 
 
 def test_a_page_asks_for_it(tmp_path: Path) -> None:
-    workspace, mailbox = opened(scan(tmp_path, filling=SurfaceFilling()), tmp_path)
+    workspace, mailbox = opened(scan(tmp_path, filling=COARSE), tmp_path)
     mailbox.wait_for(Opened, kind="mesh", has_surface=True)
     begun = mailbox.messages[-1]
     assert isinstance(begun, Opened)
