@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 from snapspace import InterpolationModel, Key, PosingModel, Timeline, load, write_timeline
 from snapspace.mesh import read_surface
+from snapspace.pictures import render
 
 from ..gltf.glb_content import GlbContent
 from ..own_file import own_file, with_file
@@ -82,7 +84,10 @@ def test_up_is_refused_where_coordinates_stay(
     assert text in run("pose", own_model, *MOVE, *words, "--up", "z").error
 
 
-def test_up_and_a_picture_go_with_any_file(run: Run, own_model: Path, tmp_path: Path) -> None:
+def test_up_and_a_picture_go_with_any_file(
+    run: Run, own_model: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("snapspace.cli.pose.render", partial(render, size=(60, 60), samples=1))
     files = ("-o", tmp_path / "out.obj", "--png", tmp_path / "out.png")
     assert run("pose", own_model, *MOVE, *files, "--up", "z").code == 0
 
