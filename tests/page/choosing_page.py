@@ -12,7 +12,7 @@ from snapspace.generators import bar
 from .pages import PAUSE, SECONDS, OpenPage, Page, Point
 
 #: Most tests choose handles on it.
-BAR = bar(12, 4, 4, length=4.0, width=1.0, height=1.0)
+BAR = bar(12, 3, 3, length=4.0, width=1.0, height=1.0)
 ENDS = {"foot": BAR.vertices[:, 0] < 0.7, "head": BAR.vertices[:, 0] > 3.3}
 TAKE_HANDLES = """(given) => snapspace.choosing.go({
   ...snapspace.choosing.choice, selected: Int32Array.of(), parts: [],
