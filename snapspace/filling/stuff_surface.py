@@ -15,6 +15,7 @@ from ..mesh.tet_search import closest_boundary_faces
 from ..notice import notify
 from ..stopping import check_stop
 from ..stuffing import Progress, stuff
+from .closed_gaps import notice_closed_gaps
 from .closed_input import ClosedInput, check_share, closed_input
 from .lost_tips import are_tips
 
@@ -57,7 +58,8 @@ def stuff_surface(
         Its boundary has its own vertices, which lie on the surface; sharp edges are cut off within
         an edge length. Thin tips that no tried edge length reaches are left out if they have at
         most one in a hundred of the vertices and are up to three edge lengths long; the shortest
-        edge that reaches the rest is used, and a `MeshNotice` says so. Dihedral angles are over 8
+        edge that reaches the rest is used, and a `MeshNotice` says so. Another one says if gaps or
+        holes narrower than the tets are closed. Dihedral angles are over 8
         degrees. The same input gives the same tets.
 
     Raises
@@ -111,5 +113,6 @@ def stuff_surface(
 
 
 def _placed(mesh: TetMesh, surface: ClosedInput) -> TetMesh:
-    """Scales tets in a surface of diagonal one back."""
+    """Scales tets in a surface of diagonal one back, with a notice if they close gaps."""
+    notice_closed_gaps(mesh, surface)
     return TetMesh(mesh.vertices * surface.diagonal + surface.center, mesh.tets)

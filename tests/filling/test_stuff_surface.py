@@ -7,9 +7,10 @@ import pytest
 
 from snapspace.filling import stuff_surface
 from snapspace.generators import bar, cylinder
-from snapspace.mesh import TetMesh
+from snapspace.mesh import MeshNotice, TetMesh, repair_tets
 from snapspace.mesh.closed_surface import check_closed, enclosed_volume
 from snapspace.mesh.tet_search import closest_boundary_faces
+from snapspace.stuffing.manifold import euler_characteristic
 
 from .surfaces import Surface, surface_of
 
@@ -59,6 +60,37 @@ def test_a_part_that_is_too_thin_is_an_error() -> None:
     mesh = bar(16, 1, 1, length=4.0, width=0.02, height=0.02)
     with pytest.raises(ValueError, match=r"edge_length is 0\.1 of the diagonal, too long"):
         stuff_surface(*surface_of(mesh), edge_length=0.1)
+
+
+def ring(gap: float) -> Surface:
+    """A bar bent to a ring that is open by `gap` of its mean diameter."""
+    vertices, faces = surface_of(bar(48, 4, 4, length=1.0, width=0.3, height=0.3))
+    x, y, z = (vertices - vertices.mean(axis=0)).T
+    angle = x * (2.0 * np.pi - 2.0 * gap)
+    return np.stack([(1.0 + y) * np.cos(angle), (1.0 + y) * np.sin(angle), z], axis=1), faces
+
+
+def test_a_notice_says_if_a_gap_is_closed() -> None:
+    """The ends of the ring are joined, and would move as one."""
+    with pytest.warns(MeshNotice, match="join parts of the surface that nearly touch, in 1 place;"):
+        stuff_surface(*ring(0.01), edge_length=0.03)
+    stuff_surface(*ring(0.1), edge_length=0.03)  # a notice would be an error
+
+
+def test_a_notice_says_if_a_hole_is_closed() -> None:
+    """A square plate with a hole of a third of an edge length through it."""
+    side = np.concatenate([[-1.0, -0.5], [-0.012, 0.012], [0.5, 1.0]])
+    plate = bar(5, 5, 2, length=2.0, width=2.0, height=0.2)
+    cell = np.array([plate.vertices[tet].mean(axis=0) for tet in plate.tets])
+    hole = (np.abs(cell[:, :2] - cell[:, :2].mean(axis=0)) < 0.2).all(axis=1)
+    pierced, _ = repair_tets(plate.vertices, plate.tets[~hole])
+    vertices, faces = surface_of(pierced)
+    for axis in (0, 1):
+        steps = np.unique(plate.vertices[:, axis])
+        vertices[:, axis] = np.interp(vertices[:, axis], steps, side)
+    assert euler_characteristic(faces) == 0
+    with pytest.warns(MeshNotice, match="close narrow holes through the surface, in 1 place;"):
+        stuff_surface(vertices, faces, edge_length=0.04)
 
 
 def test_two_solids_are_refused(barrel: Surface) -> None:
