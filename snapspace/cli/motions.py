@@ -94,7 +94,7 @@ def as_parameters(
     centers = problem.centroids
     turns = Rotation.from_euler("xyz", wanted[:, 3:])
     turn = turns[0]
-    shift = centers[0] + wanted[0, :3] - turn.apply(centers[0])
+    shift = centers[0] + wanted[0, :3] - turn.as_matrix() @ centers[0]
     places = turn.inv().apply(centers[1:] + wanted[1:, :3] - shift)
     with warnings.catch_warnings():
         # at a pitch of 90 degrees the angles are not unique; any solution is right
