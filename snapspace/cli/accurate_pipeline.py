@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import shlex
 import time
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
@@ -118,7 +119,7 @@ def build_accurate_model(
                 surface=surface,
                 tell=notice,
             )
-        _notice_missed_target(built, recipe.budget)
+        _notice_missed_target(built, recipe.budget, output)
         _notice_unjudged(built)
         unseen = built.held_out & built.snapshots.converged
         known = built.snapshots.select(unseen) if unseen.any() else None
@@ -149,19 +150,19 @@ def _notice_unjudged(built: AccurateModel[Any]) -> None:
         )
 
 
-def _notice_missed_target(built: AccurateModel[Any], budget: float | None) -> None:
+def _notice_missed_target(built: AccurateModel[Any], budget: float | None, output: Path) -> None:
     if built.reached:
         return
     step = built.step
     cure = "make the box smaller"
     if step.unseen == "blends":
         cure = "leave out the poses that differ most"
-    more = "give --samples and --dimension"
+    split = shlex.join(["snapspace", "validate", str(output), "--split"])
+    more = f"`{split}` says what a better model needs"
     if budget is not None and len(built.snapshots) < built.most_samples:
         more = "raise --budget"
     notice(
         f"notice: unseen {step.unseen} are {in_percent(step.error)} off in the {step.typical}, "
-        f"more than the {in_percent(built.target)} of --target-error; more than "
-        f"{len(built.snapshots)} samples or {built.model.dimension} dimensions are needed: {more}, "
-        f"or {cure}"
+        f"more than the {in_percent(built.target)} of --target-error, with {len(built.snapshots)} "
+        f"samples and {built.model.dimension} dimensions; {more}, or {cure}"
     )

@@ -71,9 +71,10 @@ def animate(
     count = timeline.frame_count(rate)
     begin = time.perf_counter()
     shapes, reports = [], []
-    for report in session.animate(timeline, frames=count):
-        reports.append(report)
-        shapes.append(session.vertices)
+    with within(timeline_file or model_file):
+        for report in session.animate(timeline, frames=count):
+            reports.append(report)
+            shapes.append(session.vertices)
     seconds = time.perf_counter() - begin
     failed = [report for report in reports if not report.converged]
     if failed:

@@ -50,7 +50,8 @@ def test_a_wrong_timeline_is_one_line(run: Run, posing_model: PosingModel, tmp_p
     posing_model.save(model)
     timeline = tmp_path / "a.json"
     write_timeline(timeline, Timeline("posing", (Key(0.0, {"tail": NOD["head"]}),)))
-    assert "tail" in run("animate", model, timeline).error
+    error = run("animate", model, timeline).error
+    assert f"{timeline}: there is no handle 'tail'; the handles are" in error
 
 
 def test_the_help_names_only_options_that_there_are(run: Run) -> None:

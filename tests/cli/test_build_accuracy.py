@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from snapspace import SolverOptions, load, write_tets
+from snapspace import AccurateModel, SolverOptions, load, write_tets
 from snapspace.accurate.solving import Solving
 from snapspace.cli.target_error import BLENDS_DECIDING, MOTIONS_DECIDING
 from snapspace.problem import Problem
@@ -122,6 +122,18 @@ def test_a_budget_ends_it_early_and_says_so(run: Run, tmp_path: Path) -> None:
     assert "would exceed the budget of 0.01 s" in text and "raise --budget" in text
     record = load(path).provenance["accurate"]
     assert not record["reached"] and record["step"]["samples"] == 96
+
+
+def test_a_missed_target_names_the_command_that_says_why(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A guess, such as more samples, would be wrong where the tets of the cubature are too few."""
+    monkeypatch.setattr(AccurateModel, "reached", False)
+    path = tmp_path / "m.snapspace"
+    words = ("--problem", neo_hookean(tmp_path), "--target-error", 0.2)
+    text = " ".join(run("build", *words, "-o", path).err.split())
+    assert f"; `snapspace validate {path} --split` says what a better model needs" in text
+    assert "cubature: the energy of" in run("validate", path, "--split", "--samples", 2).err
 
 
 @pytest.mark.parametrize(
