@@ -110,7 +110,12 @@ def main() -> None:
         print(json.dumps(rows))
         return
     table = Table(
-        "problem", "built", "parts: subspace / stiffness / cubature / minimum", "next", "error", "s / sample"
+        "problem",
+        "built",
+        "parts: subspace / stiffness / cubature / minimum",
+        "next",
+        "error",
+        "s / sample",
     )
     for row in rows:
         parts = " / ".join(f"{value:.2g}" for value in row["parts"].values())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import operator
 import os
+from collections.abc import Callable
 from numbers import Integral, Real
 from pathlib import Path
 from typing import Any
@@ -49,6 +50,11 @@ def require_type(who: str, name: str, value: object, kinds: Any, cure: str) -> N
     """ValueError that names `who`, `name`, the type and the cure, for a value of other types."""
     if not isinstance(value, kinds):
         raise wrong_type(who, name, value, cure)
+
+
+def require_function(who: str, name: str, value: object) -> None:
+    """Raises a ValueError in the name of `who` unless the argument is a function or None."""
+    require_type(who, name, value, Callable | None, "give a function, or None")
 
 
 def as_numbers(who: str, name: str, values: ArrayLike) -> FloatArray:

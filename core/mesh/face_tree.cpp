@@ -4,6 +4,7 @@
 #include <array>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "threads/parallel.h"
 
@@ -108,10 +109,10 @@ void FaceTree::measure(int place, const Vector3d& point, ClosestFace& best) cons
 }
 
 ClosestFace FaceTree::closest(const Vector3d& point, double squared_limit,
-                              const ClosestFace& likely) const {
+                              std::int32_t likely) const {
   ClosestFace best;
   best.squared_distance = squared_limit;
-  if (likely.face >= 0) measure(places_[likely.face], point, best);
+  if (likely >= 0) measure(places_[likely], point, best);
   std::array<std::pair<std::int32_t, double>, most_waiting> waiting;
   int count = 0;
   waiting[count++] = {0, nodes_[0].box.squaredExteriorDistance(point)};
@@ -135,10 +136,11 @@ ClosestFace FaceTree::closest(const Vector3d& point, double squared_limit,
 void FaceTree::closest(const double* points, int count, double limit, int threads,
                        ClosestFace* found) const {
   parallel_for((count + chunk - 1) / chunk, threads, [&](int part) {
-    ClosestFace likely;
+    std::int32_t likely = -1;
     for (int k = part * chunk; k < std::min(count, (part + 1) * chunk); ++k) {
       const Eigen::Map<const Vector3d> point(points + 3 * static_cast<std::size_t>(k));
-      likely = found[k] = closest(point, limit * limit, likely);
+      found[k] = closest(point, limit * limit, likely);
+      likely = found[k].face;
     }
   });
 }

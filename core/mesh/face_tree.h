@@ -21,13 +21,8 @@ class FaceTree {
   /// @param faces     face_count x 3, at least one; a face may have no area
   FaceTree(const double* vertices, const std::int32_t* faces, int face_count);
 
-  /// The face closest to a point, and among equally close ones the first.
-  /// @param squared_limit  square of the largest distance of interest
-  /// @param likely         the closest face of a point nearby, where the search begins
-  [[nodiscard]] ClosestFace closest(const Eigen::Vector3d& point, double squared_limit,
-                                    const ClosestFace& likely = {}) const;
-
-  /// The closest faces of many points, count x 3.
+  /// The faces closest to points, count x 3, and among equally close ones the first.
+  /// @param limit  largest distance of interest
   void closest(const double* points, int count, double limit, int threads,
                ClosestFace* found) const;
 
@@ -40,6 +35,9 @@ class FaceTree {
   using Triangle = Eigen::Matrix3d;  ///< its columns are the corners
 
   void add_node(const std::vector<Triangle>& triangles, int begin, int end);
+  /// @param likely  the closest face of a point nearby, where the search begins, or -1
+  [[nodiscard]] ClosestFace closest(const Eigen::Vector3d& point, double squared_limit,
+                                    std::int32_t likely) const;
   void measure(int place, const Eigen::Vector3d& point, ClosestFace& best) const;
 
   double rounding_ = 0.0;  ///< bound on the error of a small squared distance

@@ -157,12 +157,11 @@ def accurate_model(
     options, threads, progress, checkpoint, executor : as for `solve_snapshots`
     start : PosingModel, optional
         A model of the same mesh with other handles, just made or loaded: handles may have been
-        added, removed or moved. Bounds and material may differ as well.
-        The first new model is then made from its shapes, and from loosely
-        solved shapes that start from its predictions for the new handles. The new model has up to
-        2.4 times the error of one made from scratch, after a sixth to two thirds of the time.
-        Unless it meets the target, samples are solved starting from its solutions, and later bases
-        include the old shapes.
+        added, removed or moved. Bounds and material may differ as well. The first new model is then
+        made from its shapes, and from loosely solved shapes that start from its predictions for the
+        new handles. The new model has up to 2.4 times the error of one made from scratch, after a
+        sixth to two thirds of the time. Unless it meets the target, samples are solved starting
+        from its solutions, and later bases include the old shapes.
         If handles were only removed, the first new model is the old one without them, at once.
         Unless it meets the target, others are made as without `start`, since the old shapes would
         use up dimensions.

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..arguments import is_finite, is_whole, require_type, shown
+from ..arguments import is_finite, is_whole, shown
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction.shown_surface import surface_in
-from ..snapshots import Checkpoint, SolverOptions
+from ..snapshots import Checkpoint, SolverOptions, check_solving
 
 #: Smallest number of samples, and of held-out ones among them.
 FEWEST_SAMPLES, FEWEST_HELD_OUT = 20, 4
@@ -37,11 +37,7 @@ def check_search(
     functions : arguments that must be functions or None, by name
     """
     check_problem(problem, who)
-    cure = "give SolverOptions(tolerance=..., ...)"
-    require_type(who, "options", options, SolverOptions | None, cure)
-    require_type(who, "checkpoint", checkpoint, Checkpoint | None, "give Checkpoint(folder)")
-    for name, function in functions.items():
-        require_type(who, name, function, Callable | None, "give a function, or None")
+    check_solving(who, options, checkpoint, **functions)
     if surface is not None:
         surface_in(problem.mesh, surface, who=who)
 

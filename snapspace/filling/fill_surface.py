@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..arguments import require_type
+from ..arguments import require_function
 from ..mesh import TetMesh, repair_tets, tet_volumes
 from ..mesh.components import tet_components
 from ..point_text import point_text
@@ -80,7 +80,7 @@ def fill_surface(
     """
     surface = closed_input(vertices, faces, who="fill_surface", mend=mend, leave_open=True)
     check_share(edge_length, "edge_length", largest=1.0, who="fill_surface")
-    require_type("fill_surface", "progress", progress, Callable | None, "give a function, or None")
+    require_function("fill_surface", "progress", progress)
     check_share(tolerance, "tolerance", largest=0.1, who="fill_surface")
     tet_vertices, tets = ftetwild(
         surface.vertices,

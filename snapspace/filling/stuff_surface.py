@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import require_type
+from ..arguments import require_function
 from ..mesh import MeshNotice, TetMesh
 from ..mesh.arrays import FloatArray
 from ..mesh.signed_distance import SignedDistance
@@ -59,8 +57,8 @@ def stuff_surface(
         an edge length. Thin tips that no tried edge length reaches are left out if they have at
         most one in a hundred of the vertices and are up to three edge lengths long; the shortest
         edge that reaches the rest is used, and a `MeshNotice` says so. Another one says if gaps or
-        holes narrower than the tets are closed. Dihedral angles are over 8
-        degrees. The same input gives the same tets.
+        holes narrower than the tets are closed. Dihedral angles are over 8 degrees. The same input
+        gives the same tets.
 
     Raises
     ------
@@ -78,7 +76,7 @@ def stuff_surface(
     """
     surface = closed_input(vertices, faces, who="stuff_surface", mend=mend)
     check_share(edge_length, "edge_length", largest=0.5, who="stuff_surface")
-    require_type("stuff_surface", "progress", progress, Callable | None, "give a function, or None")
+    require_function("stuff_surface", "progress", progress)
     distance = SignedDistance(surface.vertices, surface.faces)
 
     def implicit(points: FloatArray) -> FloatArray:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
-from ..arguments import is_finite, require_count, require_type, shown
+from ..arguments import is_finite, require_count, require_function, shown
 from ..blas import single_threaded_blas
 from ..interruptible import run_interruptible
 from ..mesh import TetMesh
@@ -105,7 +105,7 @@ def fit_poses(
     surfaces, labels = checked_targets(mesh, surface, targets, names)
     _check_options(deviation, max_iterations, threads)
     for name, function in (("progress", progress), ("on_finished", on_finished)):
-        require_type("fit_poses", name, function, Callable | None, "give a function, or None")
+        require_function("fit_poses", name, function)
     fitting = _Fitting(mesh, surface, deviation, max_iterations)
     fitted: dict[int, tuple[FloatArray, PoseFit]] = {}
     announced: set[int] = set()

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from concurrent.futures import Executor
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arguments import check_target, require_count, require_type
+from ..arguments import check_target, require_count
 from ..displacements import SnapshotGram
 from ..input_error import located
 from ..problem import InterpolationProblem, PosingProblem, require_problem
@@ -20,6 +19,7 @@ from ..snapshots import (
     Snapshots,
     SolverOptions,
     check_snapshots_of,
+    check_solving,
     solve_snapshots,
 )
 from .batch_checkpoints import batch_checkpoint
@@ -112,12 +112,7 @@ def greedy_snapshots(
     if target is not None:
         with located("greedy_snapshots"):
             check_target(target)
-    cure = "give SolverOptions(tolerance=..., ...)"
-    require_type("greedy_snapshots", "options", options, SolverOptions | None, cure)
-    cure = "give Checkpoint(folder)"
-    require_type("greedy_snapshots", "checkpoint", checkpoint, Checkpoint | None, cure)
-    cure = "give a function, or None"
-    require_type("greedy_snapshots", "progress", progress, Callable | None, cure)
+    check_solving("greedy_snapshots", options, checkpoint, progress=progress)
     options = options or SolverOptions()
     so_far = SolvedSoFar(problem, known, dimension)
     batch_progress = BatchProgress(progress, count) if progress else None

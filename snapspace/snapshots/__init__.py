@@ -1,6 +1,7 @@
 """Snapshots: full-space solutions at sampled parameters."""
 
 from .carry import carry_over, unsolved_snapshots
+from .check_solving import check_solving
 from .checkpoint import Checkpoint, CheckpointNotice, UnsavedSamplesError, run_key
 from .predictions import Predictions, positive_inverse
 from .run import Interrupted
@@ -29,6 +30,7 @@ __all__ = [
     "carry_over",
     "check_snapshots",
     "check_snapshots_of",
+    "check_solving",
     "load_snapshots",
     "lowest_start",
     "positive_inverse",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from concurrent.futures import Executor
 from typing import Any
 
@@ -12,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..arguments import as_numbers, require_type, wrong_type
 from ..problem import Problem, require_problem
 from ..thread_count import checked_threads
+from .check_solving import check_solving
 from .checkpoint import Checkpoint
 from .predictions import Predictions
 from .run import Run
@@ -82,10 +82,7 @@ def solve_snapshots(
     who = "solve_snapshots"
     cure = "give a PosingProblem or InterpolationProblem first, then the parameters"
     require_problem(problem, who, cure=cure)
-    cure = "give SolverOptions(tolerance=..., ...)"
-    require_type(who, "options", options, SolverOptions | None, cure)
-    require_type(who, "checkpoint", checkpoint, Checkpoint | None, "give Checkpoint(folder)")
-    require_type(who, "progress", progress, Callable | None, "give a function, or None")
+    check_solving(who, options, checkpoint, progress=progress)
     cure = "give Predictions, such as those of predicted_solutions"
     require_type(who, "predictions", predictions, Predictions | None, cure)
     if executor is not None and not hasattr(executor, "submit"):
