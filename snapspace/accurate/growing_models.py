@@ -14,8 +14,9 @@ from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import PosingModel
 from ..snapshots import Progress, Snapshots, SolverOptions
 from .checks import check_search
-from .model_search import Begins, Model, ModelSearch
-from .search_options import SearchOptions
+from .model_maker import Model
+from .model_search import ModelSearch
+from .search_options import Begins, SearchOptions
 from .solving import Solving
 from .step import Step
 from .trial import Trial
@@ -28,9 +29,10 @@ class Growth:
     model : PosingModel or InterpolationModel
     snapshots : the samples solved so far, including the held-out ones
     held_out : (k,), True for the samples that are held out
-    step : errors of the model; None for the preliminary first model, whose errors are not measured
+    step : errors of the model; None for preliminary models, whose errors are not measured
     seconds : time since `growing_models` began
     final : whether this is the last model
+    impression : whether this is only an impression, a small model of loosely solved samples
     """
 
     model: Model
@@ -39,6 +41,7 @@ class Growth:
     step: Step | None
     seconds: float
     final: bool
+    impression: bool = False
 
     def __repr__(self) -> str:
         what = self.step or "preliminary"
@@ -64,10 +67,10 @@ def growing_models(
 ) -> Iterator[Growth]:
     """Yields the models that `accurate_model` finds on its way to the last one.
 
-    The first one is a preliminary model from a few loosely solved samples, from which later solves
-    start. With `start`, a model of other handles, the first one is far better, see
-    `accurate_model`. All others are judged by held-out samples, and each is better than those
-    before it.
+    The first one is an impression: a preliminary model from a few loosely solved samples, from
+    which later solves start. With `start`, a model of other handles, a second preliminary model is
+    far better, see `accurate_model`; if handles were only removed, it is the first one. All others
+    are judged by held-out samples, and each is better than those before it.
 
     Parameters
     ----------
@@ -105,7 +108,9 @@ def growing_models(
     loose = search.solve_impression(known)
     if loose is not None:
         held_out = np.zeros(len(loose), bool)
-        yield Growth(search.impression(loose), loose, held_out, None, search.seconds, False)
+        for model, impression in search.preliminary_models(loose):
+            seconds = search.time.spent
+            yield Growth(model, loose, held_out, None, seconds, False, impression=impression)
     shown: Trial | None = None
     for trial in search.trials(one_a_stage=True):
         if trial.step.error <= search.target and trial is search.best:
@@ -119,5 +124,5 @@ def growing_models(
 def _growth(search: ModelSearch, trial: Trial, *, final: bool) -> Growth:
     samples = search.samples
     return Growth(
-        trial.model, samples.snapshots, samples.held_out, trial.step, search.seconds, final
+        trial.model, samples.snapshots, samples.held_out, trial.step, search.time.spent, final
     )

@@ -3,37 +3,34 @@
 from __future__ import annotations
 
 import itertools
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
 
 from ..arguments import check_target
-from ..interruptible import begin_abandonable
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
-from ..reduction import InterpolationModel, PosingModel, reduce
+from ..reduction import PosingModel
 from ..snapshots import Snapshots
-from ..subspace import AffineSubspace
-from .checks import check_budget, check_most
+from .checks import check_most
 from .dimension_search import DimensionSearch
-from .early_parts import make_early_parts
 from .growing_samples import GrowingSamples
-from .largest_pca import largest_pca, widened_pca
+from .largest_pca import widened_pca
 from .measured_ratio import measured_ratio
+from .model_maker import Model, ModelMaker
 from .old_model import OldModel, check_start, judging_seed, usual_shapes
 from .plan import is_large, plan_of, predicted_most_samples, usual_most_samples
 from .predicting import MOST_DIMENSIONS, Predicting, predicting_stars
 from .restricted_model import restricted_model, with_starts
-from .search_options import SearchOptions
+from .search_options import Begins, SearchOptions, Tell
+from .search_time import SearchTime
 from .solving import Solving
 from .step import Step
 from .trial import Trial, recorded, trial_of
 
-Model = PosingModel | InterpolationModel
-#: Gets a line of text for the user.
-Tell = Callable[[str], None]
-#: Gets "snapshots", "subspace" or "energy" before each of these parts of the work.
-Begins = Callable[[str], None]
+#: Smallest dimension of the last model, relative to that of the next one, whose cubature gets the
+#: stiffness of its tets; with half as many, errors of soft bodies grow by up to a quarter
+#: (docs/notes/reduced-stiffness.md).
+SIMILAR = 0.6
 
 
 class ModelSearch:
@@ -65,7 +62,7 @@ class ModelSearch:
         tell: Tell | None = None,
         begins: Begins | None = None,
     ) -> None:
-        self._begin = time.perf_counter()
+        self.time = SearchTime(options.budget)
         usual = plan_of(problem)
         self.target = usual.target if options.target_error is None else options.target_error
         most = options.most_samples
@@ -73,8 +70,6 @@ class ModelSearch:
         self._most_predicted = predicted_most_samples(problem) if most is None else most
         check_target(self.target)
         check_most(self.most)
-        check_budget(options.budget)
-        self._budget = options.budget
         self._plan = usual.fitting(self.most)
         self._restricted: PosingModel | None = None
         self._old: OldModel | None = None
@@ -83,12 +78,11 @@ class ModelSearch:
             assert isinstance(problem, PosingProblem)
             self._restricted = restricted_model(start, problem, surface)
             if self._restricted is None:
-                wanted = max(self._plan.first, usual_shapes(start, problem))
-                near = min(wanted, self.most - self._plan.held_out)
+                near = usual_shapes(start, problem, self._plan, self.most)
                 self._old = OldModel(start, problem, most=near)
         self._first: Model | None = None  # made from the old one
         self._predicting = Predicting()
-        self._solving, self._surface = solving, surface
+        self._solving = solving
         self._tell = tell or (lambda line: None)
         self._begins = begins or (lambda part: None)
         self.samples = GrowingSamples(
@@ -105,13 +99,16 @@ class ModelSearch:
         )
         self.steps: list[Step] = []
         self.best: Trial | None = None
-        self._model_seconds = 0.0  # what the last model took; 0 before the first
-        self._finish_parts = begin_abandonable(lambda: make_early_parts(problem))
+        self._tried: Model | None = None  # the last model that was tried
+        self._maker = ModelMaker(
+            problem, surface=surface, threads=solving.threads, begins=self._begins
+        )
 
-    @property
-    def seconds(self) -> float:
-        """Time since the search began."""
-        return time.perf_counter() - self._begin
+    def begin(self) -> None:
+        """Does the work before `trials`: all that `preliminary_models` leaves for later solves."""
+        loose = self.solve_impression()
+        if self._old is not None and loose is not None:
+            list(self._from_old(self._old, loose))
 
     def solve_impression(self, known: Snapshots | None = None) -> Snapshots | None:
         """Solves the loose samples of a preliminary model, where later solves start; None if none.
@@ -119,7 +116,10 @@ class ModelSearch:
         known : where they start, as for `solve_snapshots`; no effect with a model of other handles
         """
         if self._old is not None:
-            return self._begin_with(self._old)
+            self._begins("snapshots")
+            near = self._old.near_solutions(self.samples.training_parameters, self._solving.threads)
+            self.samples.begin_with(self._old.shapes, near)
+            return near
         count = min(self._plan.impression, self._plan.first)
         if not count:
             return None
@@ -132,11 +132,15 @@ class ModelSearch:
             return near
         return self.samples.solve_loosely(count, self._solving, known=known)
 
-    def impression(self, loose: Snapshots) -> Model:
-        """The preliminary model, or the one made from an old model."""
+    def preliminary_models(self, loose: Snapshots) -> Iterator[tuple[Model, bool]]:
+        """Yields models before any is judged, and whether they are impressions of loose samples."""
         if self._first is not None:
-            return self._first
-        return self._model(loose, min(self._plan.impression_dimension, len(loose) - 1))
+            yield self._first, False
+        elif self._old is None:
+            dimension = min(self._plan.impression_dimension, len(loose) - 1)
+            yield self._maker.of_snapshots(loose, dimension), True
+        else:
+            yield from self._from_old(self._old, loose)
 
     @property
     def chosen(self) -> Trial:
@@ -167,6 +171,7 @@ class ModelSearch:
                 for dimension in tries.dimensions(last=last):
                     trial = self._taken(self._try(count, dimension, tries))
                     self._predicting.take(trial.model, self.samples.trained)
+                    self._tried = trial.model
                     tries.add(trial.step)
                     yield trial
                 if one_a_stage and not tries.steps and not last:
@@ -201,21 +206,19 @@ class ModelSearch:
         """The model that predicts the next samples, if there is one."""
         if not self.samples.are_predicted:
             return self.best.model if self.best else self._first
-        make = partial(self._model, tets=predicting_stars(self.samples.problem))
+        make = partial(self._maker.of_snapshots, tets=predicting_stars(self.samples.problem))
         model = self._predicting.model(self.samples.solved, make)
         self._begins("snapshots")
         return model
 
-    def _begin_with(self, old: OldModel) -> Snapshots:
-        """Returns shapes near solutions, and makes the first model of these and the old shapes."""
-        self._begins("snapshots")
-        near = old.near_solutions(self.samples.training_parameters, self._solving.threads)
-        self.samples.begin_with(old.shapes, near)
+    def _from_old(self, old: OldModel, near: Snapshots) -> Iterator[tuple[Model, bool]]:
+        """Yields a small model of shapes near solutions, then one of these and the old shapes."""
+        impression = self._maker.of_snapshots(near, MOST_DIMENSIONS)
+        yield impression, True
         self._begins("subspace")
-        self._finish_parts()
         basis = old.widened(near, self._plan.most_dimensions, self._solving.threads)
-        self._first = self._reduced(basis, near)
-        return near
+        self._first = self._maker.of_basis(basis, near, stiffness_from=impression)
+        yield self._first, False
 
     def _taken(self, trial: Trial) -> Trial:
         """Reports and records a trial, and returns it."""
@@ -226,25 +229,25 @@ class ModelSearch:
         return trial
 
     def _try(self, count: int, dimension: int, tries: DimensionSearch) -> Trial:
-        begin = time.perf_counter()
-        model = self._model(self.samples.trained, dimension)
+        begin, last = self.time.spent, self._tried
+        known = last if last and last.dimension >= SIMILAR * dimension else None
+        model = self._maker.of_snapshots(self.samples.trained, dimension, stiffness_from=known)
         trial = self._judged(count, model, tries.projection(dimension))
-        self._model_seconds = time.perf_counter() - begin
+        self.time.model = self.time.spent - begin
         return trial
 
     def _widened(self, count: int) -> Iterator[Trial]:
         """Tries more dimensions than the last samples have, see `widened_pca`."""
         problem = self.samples.problem
         fits = isinstance(problem, PosingProblem) and not is_large(problem)
-        late = self._budget is not None and self.seconds + self._model_seconds > self._budget
-        if self._is_met or late or not fits:
+        if self._is_met or not fits or not self.time.allows_model():
             return
         self._tell("no more samples are allowed: parts of samples are combined")
         self._begins("subspace")
         trained = self.samples.trained
         most = min(self._plan.most_dimensions, 2 * len(trained))
         basis = widened_pca(trained, most, threads=self._solving.threads)
-        yield self._taken(self._judged(count, self._reduced(basis, trained)))
+        yield self._taken(self._judged(count, self._maker.of_basis(basis, trained)))
 
     def _judged(self, count: int, model: Model, projection: float | None = None) -> Trial:
         if projection is None:
@@ -258,42 +261,12 @@ class ModelSearch:
             threads=self._solving.threads,
         )
 
-    def _model(
-        self,
-        snapshots: Snapshots,
-        dimension: int,
-        trained: Snapshots | None = None,
-        *,
-        tets: int | None = None,
-    ) -> Model:
-        """A model of at most a dimension; `trained` are the samples that train it, default all."""
-        self._begins("subspace")
-        self._finish_parts()
-        basis = largest_pca(snapshots, dimension, threads=self._solving.threads)
-        return self._reduced(basis, trained or snapshots, tets)
-
-    def _reduced(self, basis: AffineSubspace, trained: Snapshots, tets: int | None = None) -> Model:
-        self._begins("energy")
-        return reduce(
-            self.samples.problem,
-            basis,
-            snapshots=trained,
-            tets=tets,
-            surface=self._surface,
-            threads=self._solving.threads,
-        )
-
     def _is_too_late(self, count: int, following: int) -> bool:
         """Whether the samples of the next stage and a model would exceed the budget."""
-        if self._budget is None:
-            return False
-        # the first model takes up to as long as the samples that it is made of
-        model = self._model_seconds or self.seconds
-        wanted = self.samples.seconds_a_sample * (following - count) + model
-        if self.seconds + wanted <= self._budget:
+        if self.time.allows_model(self.samples.seconds_a_sample * (following - count)):
             return False
         self._tell(
-            f"{following} samples would exceed the budget of {self._budget:g} s: {count} samples "
-            "have to be enough"
+            f"{following} samples would exceed the budget of {self.time.budget:g} s: {count} "
+            "samples have to be enough"
         )
         return True

@@ -24,6 +24,7 @@ from ..snapshots import (
 )
 from ..subspace import AffineSubspace
 from .largest_pca import widened_pca
+from .plan import Plan
 from .predicting import MOST_DIMENSIONS
 
 FloatArray = NDArray[np.float64]
@@ -165,14 +166,16 @@ class OldModel:
         )
 
 
-def usual_shapes(model: PosingModel, problem: PosingProblem) -> int:
+def usual_shapes(model: PosingModel, problem: PosingProblem, plan: Plan, most: int) -> int:
     """Number of shapes near solutions for a first model.
 
     Eight for each parameter, and at least half as many as the old model has shapes, since some
-    bodies need more than others.
+    bodies need more than others, and as many as the first stage of a search. A search of at most
+    `most` samples holds some of them out.
     """
-    known = SHARE * len(model.training_parameters)
-    return max(SHAPES_A_PARAMETER * problem.parameter_count, round(known))
+    known = round(SHARE * len(model.training_parameters))
+    wanted = max(SHAPES_A_PARAMETER * problem.parameter_count, known, plan.first)
+    return min(wanted, most - plan.held_out)
 
 
 def check_start(model: Any, problem: Any) -> None:

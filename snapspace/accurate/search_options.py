@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+
+#: Gets a line of text for the user.
+Tell = Callable[[str], None]
+#: Gets "snapshots", "subspace" or "energy" before each of these parts of the work.
+Begins = Callable[[str], None]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .compliances import judging_compliances, sampled_energy
+from .cubature import Cubature
 from .elastic_states import States
 from .elements import elements_of
 from .held_out_errors import CubatureErrors
@@ -97,6 +98,7 @@ def fit_tets(
     *,
     seed: int,
     threads: int | None,
+    stiffness_from: Cubature | None = None,
 ) -> Fit[States]:
     """Chooses tets and volumes by some of the states, and holds others out.
 
@@ -105,6 +107,10 @@ def fit_tets(
     a fitted cubature are close to the energy's. So a rough fit uses the Hessians of a sample, and
     the final fit those of the rough fit. On a dog with handles at its tips errors are then 0.0013
     instead of 0.0059; with the Hessians of all tets they are 0.0012.
+
+    A fit in another subspace may replace the rough one, which takes a third of the time.
+
+    stiffness_from : a cubature of the same elements, in any subspace; None for a rough fit
 
     Raises ValueError for too few states, or for more tets than the mesh has.
     """
@@ -124,9 +130,12 @@ def fit_tets(
     ordered = tets_by_force(trained.with_forces(), threads=threads)
     candidates = sampled_tets(ordered, budget.candidate_count(count), seed=seed).tets
     training = Training(trained, candidates, seed=seed, threads=threads)
-    few = max(1, round(ROUGH * count))
-    rough = training.fitted(sampled_energy(trained, ordered), few, rows=ROUGH_ROWS * few)
-    estimate = states.sum_over(rough.tets, rough.volumes)
+    if stiffness_from is None:
+        few = max(1, round(ROUGH * count))
+        rough = training.fitted(sampled_energy(trained, ordered), few, rows=ROUGH_ROWS * few)
+        estimate = states.sum_over(rough.tets, rough.volumes)
+    else:
+        estimate = states.sum_over(stiffness_from.tets, stiffness_from.weights)
     fine = training.fitted(estimate, count, rows=_row_count(count))
     judging = unseen.with_forces()
     return Fit(

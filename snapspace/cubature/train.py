@@ -94,6 +94,7 @@ def train_cubature(
     handle_hessian: FloatArray,
     *,
     tets: int | None = None,
+    stiffness_from: Cubature | None = None,
     seed: int = 0,
     threads: int | None = None,
 ) -> tuple[Cubature, dict[str, Any]]:
@@ -115,6 +116,8 @@ def train_cubature(
         The Hessian of the handles' reduced energy, which is exact.
     tets : int, optional
         Largest number of tets to choose. Default: `default_tets`.
+    stiffness_from : Cubature, optional
+        A cubature of the same elements in another subspace, see `fit_tets`.
     seed : int, default 0
         Seed of the random rows.
     threads : int, optional
@@ -142,7 +145,7 @@ def train_cubature(
     states = PosingStates(problem, subspace, coordinates[_moved(coordinates)], handle_hessian)
     states = finite_states(states, FEWEST_SNAPSHOTS, threads=threads)
     budget = Budget(tets, usual, FEWEST_SNAPSHOTS, TRAINED, CANDIDATES, MANY_CANDIDATES)
-    fit = fit_tets(states, budget, seed=seed, threads=threads)
+    fit = fit_tets(states, budget, stiffness_from=stiffness_from, seed=seed, threads=threads)
     dense = Cubature.of_tets(problem, subspace, fit.tets, fit.volumes)
     cubature = with_local_coordinates(dense, fit.known, threads=threads)
     alone = cubature.without_remainder()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -46,14 +46,18 @@ class Publishing:
     send: Callable[[ServerMessage], None]
     kept: tuple[HandleChoice, ...] = ()
     start: PosingModel | None = None
+    _is_impression: bool = field(default=False, init=False)  # whether the page's model is one
 
     def __call__(self, growth: Growth, seconds: float) -> None:
         """Packs a model, and sends its address to the page."""
         model = growth.model
         assert isinstance(model, PosingModel)
         same, newest = self.models.is_of(model.problem), self.models.newest
-        if growth.step is None and same:
+        if growth.impression and self.start is not None:
+            return  # the page keeps its accurate model of fewer handles
+        if growth.step is None and same and not self._is_impression:
             return  # computed again: the page's model is better than the preliminary one
+        self._is_impression = growth.impression
         before = newest.model if newest and same else self.start
         assert before is None or isinstance(before, PosingModel)
         content = packed(

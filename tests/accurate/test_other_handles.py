@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ from snapspace import (
     accurate_model,
     growing_models,
     load,
+    reduce,
 )
 from snapspace.accurate.growing_samples import GrowingSamples
 from snapspace.accurate.old_model import OldModel
@@ -52,8 +54,20 @@ def start(rough_motions: AccurateModel[PosingModel]) -> PosingModel:
 
 
 @pytest.fixture(scope="module")
-def first(tail: PosingProblem, rough_motions: AccurateModel[PosingModel]) -> Growth:
-    return next(growing_models(tail, start=rough_motions.model))
+def preliminary(tail: PosingProblem, rough_motions: AccurateModel[PosingModel]) -> list[Growth]:
+    """The impression, and the model of the old model's shapes."""
+    return list(islice(growing_models(tail, start=rough_motions.model), 2))
+
+
+@pytest.fixture(scope="module")
+def first(preliminary: list[Growth]) -> Growth:
+    return preliminary[1]
+
+
+def without_impression(problem: PosingProblem, start: PosingModel, **options: Any) -> Growth:
+    """The model of the old model's shapes."""
+    growths = growing_models(problem, start=start, **options)
+    return next(growth for growth in growths if not growth.impression)
 
 
 def median_error(growth: Growth, reference: Snapshots) -> float:
@@ -63,10 +77,37 @@ def median_error(growth: Growth, reference: Snapshots) -> float:
 def test_the_first_model_is_far_better_than_an_impression(
     tail: PosingProblem, first: Growth, reference: Snapshots
 ) -> None:
-    assert first.step is None and first.model.problem is tail
+    assert first.step is None and not first.impression and first.model.problem is tail
     impression = next(growing_models(tail))
+    assert impression.impression
     errors = [median_error(growth, reference) for growth in (first, impression)]
     assert errors[0] < 0.2 * errors[1], errors
+
+
+def test_an_impression_of_the_new_handles_comes_before_the_model(
+    tail: PosingProblem, preliminary: list[Growth], reference: Snapshots
+) -> None:
+    impression, first = preliminary
+    assert impression.impression and impression.seconds < first.seconds
+    assert impression.model.dimension < 0.6 * first.model.dimension
+    scratch = next(growing_models(tail))
+    assert median_error(impression, reference) < 0.5 * median_error(scratch, reference)
+
+
+def test_a_fit_with_the_stiffness_of_the_impression_is_as_good_as_after_a_rough_fit(
+    preliminary: list[Growth], reference: Snapshots
+) -> None:
+    """The first model's cubature has no rough fit, and its errors are the same without it."""
+    impression, first = preliminary
+    problem, subspace = first.model.problem, first.model.subspace
+    snapshots = impression.snapshots
+    rough = reduce(problem, subspace, snapshots=snapshots)
+    known = reduce(problem, subspace, snapshots=snapshots, stiffness_from=impression.model)
+    assert isinstance(known, PosingModel) and isinstance(first.model, PosingModel)
+    assert known.cubature is not None and first.model.cubature is not None
+    assert np.array_equal(known.cubature.tets, first.model.cubature.tets)
+    errors = [np.median(unseen_errors(model, reference)) for model in (known, rough)]
+    assert errors[0] < 1.25 * errors[1]
 
 
 def test_a_saved_model_is_the_same_start_on_any_number_of_threads(
@@ -76,7 +117,7 @@ def test_a_saved_model_is_the_same_start_on_any_number_of_threads(
     saved = load(tmp_path / "old.snapspace")
     assert isinstance(saved, PosingModel)
     problem = adding_a_tail(posing_creature(5000, StableNeoHookean()))
-    again = next(growing_models(problem, start=saved, threads=1))
+    again = without_impression(problem, saved, threads=1)
     np.testing.assert_array_equal(again.model.subspace.basis, first.model.subspace.basis)
 
 
@@ -122,7 +163,7 @@ def test_handles_may_be_moved_removed_or_fixed(
 ) -> None:
     problem = make(motions)
     reference = solved_reference(problem, samples=8)
-    started, impression = next(growing_models(problem, start=start)), next(growing_models(problem))
+    started, impression = without_impression(problem, start), next(growing_models(problem))
     assert median_error(started, reference) < 0.5 * median_error(impression, reference)
 
 

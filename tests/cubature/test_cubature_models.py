@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import numpy as np
 import pytest
@@ -22,10 +23,10 @@ from snapspace import (
 from snapspace.mesh import mass_norms
 
 
-def cubature(subspace: AffineSubspace, snapshots: Snapshots, **options: int) -> PosingModel:
+def cubature(subspace: AffineSubspace, snapshots: Snapshots, **options: Any) -> PosingModel:
     problem = snapshots.problem
     assert isinstance(problem, PosingProblem)
-    return reduce(problem, subspace, energy="cubature", snapshots=snapshots, **options)  # type: ignore[arg-type]
+    return reduce(problem, subspace, energy="cubature", snapshots=snapshots, **options)
 
 
 def test_weights_are_positive_and_tets_few(cubature_model: PosingModel) -> None:
@@ -157,6 +158,42 @@ def test_bad_input_is_named(
         reduce(blending_model.problem, blending_model.subspace, energy="cubature")
     with pytest.raises(ValueError, match="not attached"):
         cubature(posing_model.subspace, snapshots)
+
+
+def test_the_stiffness_comes_from_a_cubature_of_the_same_elements(
+    snapshots: Snapshots,
+    cubature_model: PosingModel,
+    blending_model: InterpolationModel,
+    posing_model: PosingModel,
+) -> None:
+    subspace = snapshot_pca(snapshots, dimension=12)
+    exact = reduce(snapshots.problem, subspace, energy="exact")
+    for wrong, words in (
+        (exact, "stiffness_from has no cubature of the elements of St.Venant-Kirchhoff"),
+        (posing_model, "but the problem is on another mesh"),
+        (blending_model, "stiffness_from is of type InterpolationModel; give a PosingModel"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            cubature(subspace, snapshots, stiffness_from=wrong)
+    with pytest.raises(ValueError, match="stiffness_from is for cubatures of posing problems"):
+        reduce(snapshots.problem, subspace, energy="exact", stiffness_from=cubature_model)
+
+
+def test_a_cubature_in_another_subspace_replaces_the_rough_fit(
+    snapshots: Snapshots, cubature_model: PosingModel
+) -> None:
+    """Only its tets and their volumes count; errors on held-out samples are about the same."""
+    subspace = snapshot_pca(snapshots, dimension=24)
+    usual, known = (
+        cubature(subspace, snapshots, stiffness_from=model) for model in (None, cubature_model)
+    )
+    errors = [
+        model.provenance["cubature"]["held_out"]["displacement_median"] for model in (usual, known)
+    ]
+    assert errors[1] < 1.3 * errors[0]
+    leading = cubature(subspace, snapshots, stiffness_from=cubature_model.leading(4))
+    assert leading.cubature is not None and known.cubature is not None
+    assert np.array_equal(leading.cubature.weights, known.cubature.weights)
 
 
 def test_snapshots_at_rest_do_not_count(snapshots: Snapshots) -> None:

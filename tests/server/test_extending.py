@@ -27,8 +27,6 @@ from snapspace.server import messages as m
 from snapspace.server.body import Body
 from snapspace.server.kept_points import RADIUS, with_points
 from snapspace.server.message_parts import KeptPoint
-from snapspace.server.models import Models
-from snapspace.server.publishing import Publishing
 from snapspace.server.settings import ServerSettings
 from snapspace.server.shared_body import SharedBody
 from snapspace.server.workspace import Workspace
@@ -152,28 +150,6 @@ def test_a_kept_point_becomes_a_handle_and_its_frames_come_nearer(tmp_path: Path
     model = load(saved.model)
     assert model.dimension == new.dimension and model.problem.handles.names[-1] == "point 1"
     opened.workspace.close()
-
-
-def test_the_samples_of_the_model_it_started_from_count_too(start: PosingModel) -> None:
-    """A first model that meets the target needs 16 samples more, those that judge it."""
-    problem = with_points(start.problem, start.surface, [middle(start.problem)])
-    sent: list[m.ServerMessage] = []
-    publishing = Publishing(
-        models=Models(None),
-        request=1,
-        name="bar",
-        up=lambda: "z",
-        owners=lambda model: None,
-        mirror=lambda model: {},
-        address=str,
-        send=sent.append,
-    )
-    for growth in growing_models(problem, target_error=0.5, start=start):
-        publishing(growth, 0.0)
-    assert len(growth.snapshots) == 16
-    first, last = (message for message in sent if isinstance(message, m.Model))
-    assert first.samples >= len(start.training_parameters)
-    assert last.samples == first.samples + 16
 
 
 def test_points_that_cannot_be_handles_are_refused_and_work_continues(
