@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import operator
 import os
+import sys
 from collections.abc import Callable
 from numbers import Integral, Real
 from pathlib import Path
@@ -24,6 +25,8 @@ def require_count(who: str, name: str, value: int, *, at_least: int | None = Non
         raise ValueError(f"{who}: {name} is {shown(value)}, but must be a whole number") from None
     if at_least is not None and count < at_least:
         raise ValueError(f"{who}: {name} is {count}, but must be at least {at_least}")
+    if count > sys.maxsize:
+        raise ValueError(f"{who}: {name} is {shown(count)}, but must be at most {sys.maxsize}")
     return count
 
 
@@ -31,7 +34,7 @@ def require_finite(who: str, name: str, value: float) -> float:
     """Return `value` as a float, or raise a ValueError that names `who` and `name`."""
     try:
         number = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ValueError(f"{who}: {name} is {shown(value)}, but must be a number") from None
     if not math.isfinite(number):
         raise ValueError(f"{who}: {name} is {number}, but must be finite")
@@ -64,7 +67,7 @@ def as_numbers(who: str, name: str, values: ArrayLike) -> FloatArray:
         if array.dtype.kind in "cmM":  # NumPy would drop imaginary parts, and count days
             raise ValueError
         return np.asarray(array, np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         kind = type(values).__name__
         raise ValueError(
             f"{who}: {name} must be numbers, in rows of one length, but are of type {kind}"
@@ -133,8 +136,11 @@ def is_number(value: object) -> bool:
 
 
 def is_finite(value: object) -> bool:
-    """Whether the value is a finite real number, of Python or of NumPy."""
-    return isinstance(value, Real) and math.isfinite(value)
+    """Whether the value is a real number, of Python or of NumPy, that is finite as a float."""
+    try:
+        return isinstance(value, Real) and math.isfinite(value)
+    except OverflowError:  # a whole number beyond 1e308
+        return False
 
 
 def is_whole(value: object) -> bool:

@@ -101,8 +101,8 @@ class HandleBox:
     @property
     def bounds(self) -> FloatArray:
         """Bounds handle by handle, (moving, 6): translation x, y, z, angles alpha, beta, gamma."""
-        parts = [np.broadcast_to(part, (self.moving, 3)) for part in (self.translation, self.angle)]
-        return np.concatenate(parts, axis=1, dtype=np.float64)
+        given = (np.asarray(part, np.float64) for part in (self.translation, self.angle))
+        return np.concatenate([np.broadcast_to(part, (self.moving, 3)) for part in given], axis=1)
 
     @property
     def common(self) -> HandleBox:

@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from .. import _core as core
-from ..arguments import is_number, is_whole, wrong_type
+from ..arguments import is_finite, is_number, is_whole, wrong_type
 from ..problem import Problem, Projection
 
 Solver = Literal["fast", "newton"]
@@ -110,7 +110,7 @@ class SolverOptions:
             optional = name == "block" and getattr(self, name) is None
             if not optional and not is_whole(getattr(self, name)):
                 raise wrong_type("SolverOptions", name, getattr(self, name), "give a whole number")
-        if self.tolerance is not None and not (np.isfinite(self.tolerance) and self.tolerance > 0):
+        if self.tolerance is not None and not (is_finite(self.tolerance) and self.tolerance > 0):
             raise ValueError(
                 f"SolverOptions: tolerance is {self.tolerance}, but it must be positive"
             )
@@ -119,7 +119,7 @@ class SolverOptions:
                 f"SolverOptions: tolerance is {self.tolerance}, but it must be below 1: it is "
                 "a share of the objective, and every start would count as converged"
             )
-        if self.settling is not None and not (np.isfinite(self.settling) and self.settling >= 0):
+        if self.settling is not None and not (is_finite(self.settling) and self.settling >= 0):
             raise ValueError(
                 f"SolverOptions: settling is {self.settling}, but it must be zero or positive"
             )

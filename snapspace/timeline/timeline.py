@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import floor, isfinite
+from math import floor
 from typing import Any
 
-from ..arguments import is_number, require_count, require_positive, wrong_type
+from ..arguments import is_finite, require_count, require_positive, wrong_type
 
 #: How the state moves from a key to the next: slowly at both ends, at a constant rate, or not at
 #: all.
@@ -61,7 +61,7 @@ class Timeline:
             if not isinstance(key.state, Mapping):
                 cure = "give motions by handle, or weights by pose"
                 raise wrong_type("Timeline", f"the state of key {number}", key.state, cure)
-            if not (is_number(key.time) and isfinite(key.time) and key.time >= 0.0):
+            if not (is_finite(key.time) and key.time >= 0.0):
                 raise ValueError(
                     f"Timeline: key {number} is at {key.time} s, but times are 0 or more"
                 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 import numpy as np
@@ -54,6 +55,22 @@ WRONG: dict[str, tuple[Call, str]] = {
     "several stiffnesses": (
         lambda m, s: problem(s, stiffness=[1, 2]),
         "PosingProblem: stiffness is of type list; give a positive number",
+    ),
+    "a bound beyond all numbers": (
+        lambda m, s: ss.HandleBox(translation=10**400, angle=0.1),
+        "HandleBox: translation must be one number, three, or three for each moving handle, got 1",
+    ),
+    "a tolerance beyond all numbers": (
+        lambda m, s: ss.SolverOptions(tolerance=10**400),
+        "SolverOptions: tolerance is 100",
+    ),
+    "a tolerance that is a huge whole number": (
+        lambda m, s: ss.SolverOptions(tolerance=10**30),
+        "SolverOptions: tolerance is 1000000000000000000000000000000, but it must be below 1",
+    ),
+    "more samples than there are numbers": (
+        lambda m, s: ss.sample(s.problem.domain, 10**30),
+        f"but must be at most {sys.maxsize}",
     ),
     "half a handle": (
         lambda m, s: ss.HandleBox(translation=1, angle=1, moving=1.5),  # type: ignore[arg-type]

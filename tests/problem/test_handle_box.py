@@ -141,3 +141,9 @@ BAD: list[tuple[dict[str, Any], str]] = [
 def test_wrong_bounds_are_refused(arguments: dict[str, Any], message: str) -> None:
     with pytest.raises(ValueError, match=re.escape(f"HandleBox: {message}")):
         HandleBox(**arguments)
+
+
+def test_bounds_may_be_whole_numbers_of_any_size() -> None:
+    """NumPy keeps whole numbers beyond 64 bits as objects."""
+    box = HandleBox(translation=10**30, angle=1)
+    assert np.array_equal(box.bounds, [[1e30, 1e30, 1e30, 1, 1, 1]])
