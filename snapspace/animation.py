@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -64,8 +65,8 @@ def write_animation(
     Raises
     ------
     ValueError
-        For something other than a model, an unknown kind or option, a frame rate that is not
-        positive, a folder that cannot be created, and as for `save_film`.
+        For something other than a model, no shapes, an unknown kind or option, a frame rate that
+        is not positive, a folder that cannot be created, and as for `save_film`.
 
     Examples
     --------
@@ -163,6 +164,10 @@ def _written(
             f"write_animation: {folder} is neither a film (.gif, .mp4 or .glb) nor a folder; "
             "give a name without an extension for a new folder"
         )
+    frames = iter(shapes)
+    first = next(frames, None)
+    if first is None:
+        raise ValueError("write_animation: there are no shapes; give one for each frame")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -170,7 +175,7 @@ def _written(
             f"write_animation: cannot create the folder {folder} ({error.strerror}); give another"
         ) from None
     files = []
-    for number, shape in enumerate(shapes):
+    for number, shape in enumerate(chain([first], frames)):
         vertices = _checked(shape, model)
         file = folder / f"frame-{number:04d}{suffix}"
         write_shape(file, model, vertices, up=up)

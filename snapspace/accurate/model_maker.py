@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from ..interruptible import begin_abandonable
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
@@ -12,6 +10,7 @@ from ..snapshots import Snapshots
 from ..subspace import AffineSubspace
 from .early_parts import make_early_parts
 from .largest_pca import largest_pca
+from .search_options import Begins
 
 Model = PosingModel | InterpolationModel
 
@@ -24,7 +23,7 @@ class ModelMaker:
     problem : PosingProblem or InterpolationProblem
     surface, threads : as for `reduce`
     begins : callable
-        Gets "subspace" or "energy" before each of these parts of the work.
+        Gets "subspace" or "energy", see `Begins`.
     """
 
     def __init__(
@@ -33,7 +32,7 @@ class ModelMaker:
         *,
         surface: EmbeddedSurface | None,
         threads: int | None,
-        begins: Callable[[str], None],
+        begins: Begins,
     ) -> None:
         self._problem, self._surface = problem, surface
         self._threads, self._begins = threads, begins

@@ -58,6 +58,10 @@ WRONG: dict[str, tuple[Call, str]] = {
         lambda m, s: ss.write_animation("frames", m, [], frames_per_second=0.0),
         "write_animation: frames_per_second is 0.0, but must be positive",
     ),
+    "an animation without shapes": (
+        lambda m, s: ss.write_animation("frames", m, iter(())),
+        "write_animation: there are no shapes; give one for each frame",
+    ),
     "a line as the listener of a search": (
         lambda m, s: ss.accurate_model(s.problem, tell="line"),
         "accurate_model: tell is of type str; give a function, or None",
