@@ -13,11 +13,12 @@ KEPT = 2
 
 @dataclass(frozen=True)
 class KeptModel:
-    """A model, and the packed content that the page reads."""
+    """A model, the packed content that the page reads, and its error, None if not measured."""
 
     number: int
     model: ReducedModel
     content: bytes
+    error: float | None
 
 
 class Models:
@@ -36,10 +37,10 @@ class Models:
         self._kept: tuple[KeptModel, ...] = ()
         self._count = 0
 
-    def add(self, model: ReducedModel, content: bytes) -> int:
+    def add(self, model: ReducedModel, content: bytes, *, error: float | None = None) -> int:
         """Stores a model, drops the oldest one, and returns the new model's number."""
         self._count += 1
-        self._kept = (*self._kept[1 - KEPT :], KeptModel(self._count, model, content))
+        self._kept = (*self._kept[1 - KEPT :], KeptModel(self._count, model, content, error))
         return self._count
 
     @property

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -46,18 +46,15 @@ class Publishing:
     send: Callable[[ServerMessage], None]
     kept: tuple[HandleChoice, ...] = ()
     start: PosingModel | None = None
-    _is_impression: bool = field(default=False, init=False)  # whether the page's model is one
 
     def __call__(self, growth: Growth, seconds: float) -> None:
         """Packs a model, and sends its address to the page."""
         model = growth.model
         assert isinstance(model, PosingModel)
+        if self._has_a_better_one(growth):
+            return
         same, newest = self.models.is_of(model.problem), self.models.newest
-        if growth.impression and self.start is not None:
-            return  # the page keeps its accurate model of fewer handles
-        if growth.step is None and same and not self._is_impression:
-            return  # computed again: the page's model is better than the preliminary one
-        self._is_impression = growth.impression
+        error = None if growth.step is None else growth.step.error
         before = newest.model if newest and same else self.start
         assert before is None or isinstance(before, PosingModel)
         content = packed(
@@ -69,7 +66,7 @@ class Publishing:
             mirror=self.mirror(model),
         )
         check_stop()
-        number = self.models.add(model, content)
+        number = self.models.add(model, content, error=error)
         self.send(
             Model(
                 request=self.request,
@@ -77,12 +74,22 @@ class Publishing:
                 address=self.address(number),
                 dimension=model.dimension,
                 samples=_sample_count(growth),
-                error=None if growth.step is None else growth.step.error,
+                error=error,
                 final=growth.final,
                 seconds=seconds,
                 kept=self.kept,
             )
         )
+
+    def _has_a_better_one(self, growth: Growth) -> bool:
+        """Whether the page keeps its model: one of fewer handles, or of an earlier computation."""
+        if growth.final:
+            return False
+        newest, same = self.models.newest, self.models.is_of(growth.model.problem)
+        if growth.impression:
+            return same or self.start is not None
+        known = newest.error if newest and same else None
+        return known is not None and (growth.step is None or growth.step.error > known)
 
 
 def _sample_count(growth: Growth) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import pytest
 
@@ -65,11 +66,20 @@ def test_a_page_with_a_model_of_fewer_handles_keeps_it_until_a_better_one_is_the
     assert dimensions(published(growths, Models(None), start=start)) == dimensions(growths[1:])
 
 
-def test_preliminary_models_do_not_replace_a_judged_one(growths: list[Growth]) -> None:
-    models = Models(None)
+def test_only_better_models_replace_one_that_is_computed_again(growths: list[Growth]) -> None:
+    models, last = Models(None), growths[-1]
     published(growths, models)
-    again = published(growths, models)
-    assert [message.error is None for message in again] == [False]
+    assert last.step is not None
+    error = last.step.error
+    worse, better = (
+        replace(last, final=False, step=replace(last.step, error=factor * error))
+        for factor in (2.0, 0.5)
+    )
+    again = published([*growths[:2], worse, better, last], models)
+    assert [(message.error, message.final) for message in again] == [
+        (0.5 * error, False),
+        (error, True),
+    ]
 
 
 def test_the_samples_of_the_model_it_started_from_count_too(
