@@ -18,6 +18,7 @@ from .console import notice, print_json, print_next
 from .error_plot import save_error_plot
 from .loading import leading_of, load_leading
 from .options import FILE, SAMPLE_COUNT, SEED_NUMBER, json_option, leading_option, threads_option
+from .outliers import notice_outliers
 from .progress import sample_progress, spinner
 from .units import two_digits
 from .validation_tables import print_curve, print_split, print_validation
@@ -106,6 +107,7 @@ def validate(
     validation = _validated(model, reference, samples=asked, seed=seed, threads=threads)
     known = len(validation.reference) if reference is not None else asked
     print_validation(validation, model.dimension, asked=known)
+    notice_outliers(model, validation)
     if save_reference is not None:
         save_snapshots(validation.reference, save_reference)
         notice(f"{save_reference}: {len(validation.reference)} full solutions")

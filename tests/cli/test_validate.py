@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from snapspace import load, validate
+import numpy as np
+
+from snapspace import Snapshots, load, load_posing, save_snapshots, validate
+from snapspace.validation import solved_reference
 
 from .conftest import Run
 
@@ -53,3 +56,19 @@ def test_another_seed_draws_other_samples(run: Run, model: Path) -> None:
         run("validate", model, "--samples", 3, "--seed", seed, "--json").json for seed in (1, 2)
     )
     assert first["error"] != second["error"]
+
+
+def test_a_motion_far_off_is_reported_although_the_median_is_small(
+    run: Run, model: Path, tmp_path: Path
+) -> None:
+    """One of six full solutions is replaced by a shape near rest."""
+    loaded = load_posing(model)
+    solved = solved_reference(loaded.problem, samples=6, seed=1)
+    displacements = solved.displacements.array()
+    shapes = loaded.problem.base + displacements * np.where(np.arange(6) == 2, 0.02, 1.0)[:, None]
+    file = tmp_path / "six.samples"
+    wrong = Snapshots.from_shapes(loaded.problem, solved.parameters, shapes, solved.reports)
+    save_snapshots(wrong, file)
+    result = run("validate", model, "--reference", file)
+    told = " ".join(result.err.split())
+    assert "of 6 unseen motions are more than 10 % off, at most 4" in told, told
