@@ -98,9 +98,13 @@ class Scene:
         workers = min(AT_ONCE, os.cpu_count() or 1)
         with ThreadPoolExecutor(max_workers=workers) as pool:
             waiting: deque[Future[Exposure]] = deque()
-            for number in range(len(self.shapes)):
-                waiting.append(pool.submit(exposed, number))
-                if len(waiting) > workers:
+            try:
+                for number in range(len(self.shapes)):
+                    waiting.append(pool.submit(exposed, number))
+                    if len(waiting) > workers:
+                        yield waiting.popleft().result()
+                while waiting:
                     yield waiting.popleft().result()
-            while waiting:
-                yield waiting.popleft().result()
+            finally:  # after Ctrl-C nothing more is drawn
+                for future in waiting:
+                    future.cancel()
