@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ..page import packed
+from ..reduction import ReducedModel
 from .body import Body
 from .messages import Model
 from .models import Models
@@ -46,7 +47,7 @@ class GivenModel:
         if model is None:
             return ()
         self.pack()
-        number = models.add(model, self._content)
+        number = models.add(model, self._content, error=_error_of(model))
         message = Model(
             request=0,
             number=number,
@@ -58,3 +59,11 @@ class GivenModel:
             seconds=0.0,
         )
         return (message,)
+
+
+def _error_of(model: ReducedModel) -> float | None:
+    """The error that was measured when the model was built, as its provenance has it."""
+    record = model.provenance.get("accurate")
+    step = record.get("step") if isinstance(record, dict) else None
+    error = step.get("error") if isinstance(step, dict) else None
+    return error if isinstance(error, float) else None

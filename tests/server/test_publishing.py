@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from snapspace import Growth, PosingModel, growing_models
 from snapspace.server import messages as m
+from snapspace.server.body import Body
+from snapspace.server.given_model import GivenModel
 from snapspace.server.kept_points import with_points
 from snapspace.server.models import Models
 from snapspace.server.publishing import Publishing
@@ -80,6 +83,18 @@ def test_only_better_models_replace_one_that_is_computed_again(growths: list[Gro
         (0.5 * error, False),
         (error, True),
     ]
+
+
+def test_only_better_models_replace_one_from_a_file(growths: list[Growth], tmp_path: Path) -> None:
+    models, last = Models(None), growths[-1]
+    assert last.step is not None and isinstance(last.model, PosingModel)
+    problem = last.model.problem
+    body = Body(
+        name="bar", mesh=problem.mesh, file=None, folder=tmp_path, problem=problem, model=last.model
+    )
+    GivenModel(body).give(models, address=str)
+    worse = replace(last, final=False, step=replace(last.step, error=2.0 * last.step.error))
+    assert published([*growths[:2], worse], models) == []
 
 
 def test_the_samples_of_the_model_it_started_from_count_too(
