@@ -185,12 +185,14 @@ def accurate_model(
     Interrupted
         On Ctrl-C, after the finished samples have been saved.
     """
-    check_search(problem, options, surface, "accurate_model", checkpoint=checkpoint, tell=tell)
+    who = "accurate_model"
+    limits = SearchOptions(
+        target_error=target_error, most_samples=most_samples, budget=budget, seed=seed
+    )
+    check_search(problem, limits, options, surface, who, checkpoint=checkpoint, tell=tell)
     search = ModelSearch(
         problem,
-        SearchOptions(
-            target_error=target_error, most_samples=most_samples, budget=budget, seed=seed
-        ),
+        limits,
         Solving(
             options=options,
             threads=threads,

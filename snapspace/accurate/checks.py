@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..arguments import is_finite, is_whole, shown
+from ..arguments import check_target, is_finite, is_whole, shown
+from ..input_error import located
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction.shown_surface import surface_in
 from ..snapshots import Checkpoint, SolverOptions, check_solving
+from .search_options import SearchOptions
 
 #: Smallest number of samples, and of held-out ones among them.
 FEWEST_SAMPLES, FEWEST_HELD_OUT = 20, 4
@@ -25,6 +27,7 @@ def check_problem(problem: object, who: str) -> None:
 
 def check_search(
     problem: PosingProblem | InterpolationProblem,
+    limits: SearchOptions,
     options: SolverOptions | None,
     surface: EmbeddedSurface | None,
     who: str,
@@ -37,9 +40,19 @@ def check_search(
     functions : arguments that must be functions or None, by name
     """
     check_problem(problem, who)
+    with located(who):
+        _check_limits(limits)
     check_solving(who, options, checkpoint, **functions)
     if surface is not None:
         surface_in(problem.mesh, surface, who=who)
+
+
+def _check_limits(limits: SearchOptions) -> None:
+    if limits.target_error is not None:
+        check_target(limits.target_error)
+    if limits.most_samples is not None:
+        check_most(limits.most_samples)
+    check_budget(limits.budget)
 
 
 def check_budget(budget: float | None) -> None:

@@ -94,12 +94,13 @@ def growing_models(
     ValueError
         As for `accurate_model`.
     """
-    check_search(problem, options, surface, "growing_models", begins=begins)
+    limits = SearchOptions(
+        target_error=target_error, most_samples=most_samples, budget=budget, seed=seed
+    )
+    check_search(problem, limits, options, surface, "growing_models", begins=begins)
     search = ModelSearch(
         problem,
-        SearchOptions(
-            target_error=target_error, most_samples=most_samples, budget=budget, seed=seed
-        ),
+        limits,
         Solving(options=options, threads=threads, progress=progress, executor=executor),
         start=start,
         surface=surface,

@@ -6,12 +6,10 @@ import itertools
 from collections.abc import Iterator
 from functools import partial
 
-from ..arguments import check_target
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import PosingModel
 from ..snapshots import Snapshots
-from .checks import check_most
 from .dimension_search import DimensionSearch
 from .growing_samples import GrowingSamples
 from .largest_pca import widened_pca
@@ -40,7 +38,7 @@ class ModelSearch:
     ----------
     problem : PosingProblem or InterpolationProblem
     options, solving : SearchOptions, Solving
-        Target and limits, and how samples are solved.
+        Target and limits, checked by `check_search`, and how samples are solved.
     start : PosingModel, optional
         A model of other handles, see `accurate_model`.
     surface, tell, begins : as for `reduce`, `accurate_model` and `growing_models`
@@ -68,8 +66,6 @@ class ModelSearch:
         most = options.most_samples
         self.most = usual_most_samples(problem) if most is None else most
         self._most_predicted = predicted_most_samples(problem) if most is None else most
-        check_target(self.target)
-        check_most(self.most)
         self._plan = usual.fitting(self.most)
         self._restricted: PosingModel | None = None
         self._old: OldModel | None = None

@@ -4,23 +4,15 @@ from __future__ import annotations
 
 import time
 
-from .checks import check_budget
-
 
 class SearchTime:
     """The time since a search began, and its limit.
 
     budget : seconds, or None for no limit
     model : seconds that the last model took; 0 before the first
-
-    Raises
-    ------
-    ValueError
-        For a budget that is not positive.
     """
 
     def __init__(self, budget: float | None) -> None:
-        check_budget(budget)
         self._begin = time.perf_counter()
         self.budget = budget
         self.model = 0.0

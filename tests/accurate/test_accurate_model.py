@@ -91,7 +91,10 @@ def test_an_interrupted_run_resumes_to_the_same_model(
 @pytest.mark.parametrize("target", [0.0, -1.0, np.nan, np.inf, 1.0, 5, "5 %"])
 def test_a_target_is_a_share(problem: InterpolationProblem, target: float) -> None:
     """The command line has the same bound: every model would meet 500 %."""
-    with pytest.raises(ValueError, match=f"target error is {target!r}, but it must be between 0"):
+    with pytest.raises(
+        ValueError,
+        match=f"accurate_model: the target error is {target!r}, but it must be between 0",
+    ):
         accurate_model(problem, target_error=target)
 
 

@@ -79,11 +79,11 @@ WRONG: dict[str, tuple[Call, str]] = {
     ),
     "a budget in words": (
         lambda m, s: ss.accurate_model(s.problem, budget="x"),  # type: ignore[arg-type]
-        "the budget is 'x' seconds, but it must be positive and finite",
+        "accurate_model: the budget is 'x' seconds, but it must be positive and finite",
     ),
     "samples in words": (
         lambda m, s: ss.accurate_model(s.problem, most_samples="x"),  # type: ignore[arg-type]
-        "most_samples is 'x', but at least 20 are needed",
+        "accurate_model: most_samples is 'x', but at least 20 are needed",
     ),
     "coordinates of another model": (
         lambda m, s: m.elastic.value(np.zeros(3)),
