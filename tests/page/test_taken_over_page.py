@@ -15,7 +15,7 @@ from snapspace.server.shared_body import SharedBody
 from snapspace.stopping import check_stop
 
 from ..server.in_process import socket, started
-from .choosing_page import BAR, bar_with_ends, cancel, press, wait_for_text
+from .choosing_page import BAR, bar_with_ends, cancel, handles, press, wait_for_text
 from .pages import OpenPage
 
 STAGE = "Finding the subspace"
@@ -53,3 +53,26 @@ def test_progress_after_a_reload_and_in_a_tab_that_was_taken_over(
     assert STAGE in page.text(".progress-words")
     cancel(page)
     page.wait(f"!({BAR_IS_SHOWN})")
+
+
+def test_a_tab_that_was_taken_over_sends_no_mesh(
+    tmp_path: Path, opened: OpenPage, chromium: object
+) -> None:
+    """It would replace the mesh of the other tab."""
+    for name in ("bar", "other"):
+        write_tets(tmp_path / f"{name}.mesh", BAR)
+    address = started(body=SharedBody(read_mesh(tmp_path / "bar.mesh")))
+    page = bar_with_ends(opened, address)
+    chosen, sent = handles(page), []
+    page.page.on("request", lambda request: sent.append(request.method))
+    id = page.run("new URLSearchParams(location.search).get('workspace')")
+    with socket(address, id):
+        wait_for_text(page, "#connection", "open in another tab")
+        footer = page.page.locator("footer input[type=file]")
+        footer.set_input_files(tmp_path / "other.mesh")
+        wait_for_text(page, "#message", "other.mesh was not sent: there is no connection")
+        assert "POST" not in sent
+        press(page, "Close")
+    press(page, "Use it here")
+    page.wait("document.getElementById('connection').hidden")
+    assert handles(page) == chosen

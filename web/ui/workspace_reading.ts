@@ -55,6 +55,10 @@ export class ReadingBox {
       this.failed(`${file.name} cannot be read here. Open a file of these types: ${known.join(" ")}.`);
       return;
     }
+    if (!this.#server.isOpen) {
+      this.failed(`${file.name} was not sent: there is no connection to the server.`);
+      return;
+    }
     if (file.size > given.upload_limit) {
       const [size, most] = [file.size, given.upload_limit].map((bytes) => (bytes / MEGABYTE).toFixed(0));
       this.failed(
