@@ -1,4 +1,4 @@
-"""notice_closed_gaps: a notice if tets have another topology than the surface that they fill."""
+"""Tets that join parts which their surface keeps apart, or close holes in it."""
 
 from __future__ import annotations
 
@@ -9,17 +9,19 @@ from ..stuffing.manifold import euler_characteristic
 from .closed_input import ClosedInput
 
 
-def notice_closed_gaps(mesh: TetMesh, surface: ClosedInput) -> None:
-    """A `MeshNotice` if the tets join parts that the surface keeps apart, or close holes in it.
-
-    The boundary of the tets then has another Euler characteristic.
-    """
-    found, wanted = (euler_characteristic(faces) for faces in (mesh.surface, surface.faces))
-    if found == wanted:
-        return
+def wrong_loops(mesh: TetMesh, surface: ClosedInput) -> int:
+    """How many loops more, or fewer, the boundary of the tets has than the surface."""
     # each loop takes two from the Euler characteristic
-    places = counted(max(abs(found - wanted) // 2, 1), "place", "places")
-    if found < wanted:
+    return abs(_difference(mesh, surface)) // 2
+
+
+def notice_closed_gaps(mesh: TetMesh, surface: ClosedInput) -> None:
+    """A `MeshNotice` if the tets join parts that the surface keeps apart, or close holes in it."""
+    difference = _difference(mesh, surface)
+    if difference == 0:
+        return
+    places = counted(abs(difference) // 2, "place", "places")
+    if difference < 0:
         what = f"join parts of the surface that nearly touch, in {places}"
     else:
         what = f"close narrow holes through the surface, in {places}"
@@ -29,3 +31,8 @@ def notice_closed_gaps(mesh: TetMesh, surface: ClosedInput) -> None:
         MeshNotice,
         stacklevel=3,
     )
+
+
+def _difference(mesh: TetMesh, surface: ClosedInput) -> int:
+    """Euler characteristic of the tets' boundary, without that of the surface."""
+    return euler_characteristic(mesh.surface) - euler_characteristic(surface.faces)

@@ -1,27 +1,29 @@
-"""Filling a closed surface with tets of one size, in seconds."""
+"""Filling a closed surface with tets of a lattice, in seconds."""
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arguments import require_function
-from ..mesh import MeshNotice, TetMesh
+from ..mesh import TetMesh
 from ..mesh.arrays import FloatArray
 from ..mesh.signed_distance import SignedDistance
 from ..mesh.tet_search import closest_boundary_faces
-from ..notice import notify
 from ..stopping import check_stop
 from ..stuffing import Progress, stuff
-from .closed_gaps import notice_closed_gaps
+from ..stuffing.root_finding import ImplicitFunction
+from .closed_gaps import notice_closed_gaps, wrong_loops
 from .closed_input import ClosedInput, check_share, closed_input
-from .lost_tips import are_tips
+from .graded_tets import MOST_LOOPS, graded_tets
 
-# Vertices of the surface farther than this from the tets, in edge lengths, are in a lost part; the
-# second number is the limit for a lost tip.
-_LOST, _TIP = 1.0, 3.0
+# Vertices of the surface farther than this from tets of one size, in edge lengths, are in a lost
+# part.
+_LOST = 1.0
 # Factors of the edge length, tried in turn if parts are too thin.
-_SCALES = (1.0, 0.8, 0.6)
+_SCALES = (1.0, 0.8)
 
 
 def stuff_surface(
@@ -32,7 +34,7 @@ def stuff_surface(
     mend: bool = False,
     progress: Progress | None = None,
 ) -> TetMesh:
-    """Fills a closed triangle surface with well-shaped tets of one size.
+    """Fills a closed triangle surface with tets of one size, or smaller ones where it is thin.
 
     Parameters
     ----------
@@ -42,7 +44,8 @@ def stuff_surface(
         Closed and consistently oriented, outward or inward; without self-intersections.
     edge_length : float, default 0.025
         Length of the longest edges inside, as a share of the diagonal of the surface's bounding
-        box. If parts are too thin for that, 0.8 and 0.6 of it are tried.
+        box. If parts are too thin for that, 0.8 of it is tried. Then cells are halved up to three
+        times, only where the tets lose a part of the surface, or touch each other.
     mend : bool, default False
         Mend a surface that is not closed or not consistently oriented, see `mend_surface`. A
         `MeshNotice` says what was done. A surface that stays open is refused.
@@ -54,19 +57,18 @@ def stuff_surface(
     -------
     TetMesh
         Its boundary has its own vertices, which lie on the surface; sharp edges are cut off within
-        an edge length. Thin tips that no tried edge length reaches are left out if they have at
-        most one in a hundred of the vertices and are up to three edge lengths long; the shortest
-        edge that reaches the rest is used, and a `MeshNotice` says so. Another one says if gaps or
-        holes narrower than the tets are closed. Dihedral angles are over 8 degrees. The same input
-        gives the same tets.
+        an edge length. No vertex of the surface is farther from it than that. A `MeshNotice` says
+        if gaps or holes narrower than the tets are closed. Dihedral angles are over 8 degrees for
+        tets of one size; otherwise the smallest is 4 to 12 degrees, and one tet in a hundred has
+        less than 20. The same input gives the same tets.
 
     Raises
     ------
     ValueError
         For wrong shapes or types, coordinates that are not finite, an index out of range, no faces,
         a surface that is not closed, not consistently oriented or encloses no volume, an edge
-        length out of range, or if parts or gaps are too thin for the edge length, so that a part
-        other than a tip is lost or touches another; use `fill_surface` for such surfaces.
+        length out of range, or if parts or gaps are too thin for the edge length, or touch each
+        other or intersect; use `fill_surface` for such surfaces.
 
     Notes
     -----
@@ -83,34 +85,51 @@ def stuff_surface(
         check_stop()
         return distance(points)
 
+    try:
+        mesh = _filled(surface, implicit, edge_length, progress)
+    except ValueError as error:
+        raise ValueError(
+            f"stuff_surface: edge_length is {edge_length:g} of the diagonal, too long for thin "
+            f"parts or gaps of the surface, {error}; choose a shorter one, or use fill_surface"
+        ) from None
+    notice_closed_gaps(mesh, surface)
+    return TetMesh(mesh.vertices * surface.diagonal + surface.center, mesh.tets)
+
+
+def _filled(
+    surface: ClosedInput, implicit: ImplicitFunction, cell: float, progress: Progress | None
+) -> TetMesh:
+    """Tets of one size, if they lose no part; smaller ones in some places if that is better."""
+    even = _even_tets(surface, implicit, cell, progress)
+    wrong = math.inf if even is None else wrong_loops(even, surface)
+    if even is not None and wrong == 0:
+        return even
+    try:
+        graded = graded_tets(surface, implicit, cell, progress=progress)
+    except ValueError:
+        if even is not None and wrong <= MOST_LOOPS:
+            return even
+        raise
+    return even if even is not None and wrong <= wrong_loops(graded, surface) else graded
+
+
+def _even_tets(
+    surface: ClosedInput, implicit: ImplicitFunction, edge_length: float, progress: Progress | None
+) -> TetMesh | None:
+    """Tets of one size, with as few wrong loops as possible; None if they lose parts."""
     low, high = surface.vertices.min(axis=0), surface.vertices.max(axis=0)
-    fault, without_tips = "", None
+    best = None
     for scale in _SCALES:
         cell = scale * edge_length
         try:
             mesh = stuff(implicit, low, high, cell, progress=progress)
-        except ValueError as error:
-            fault = str(error)
+        except ValueError:  # the boundary touches itself
             continue
-        _, distances = closest_boundary_faces(mesh, surface.vertices, limit=_TIP * cell)
-        lost = np.flatnonzero(distances > _LOST * cell)
-        if not lost.size:
-            return _placed(mesh, surface)
-        if np.isfinite(distances).all() and are_tips(lost, surface.faces):
-            without_tips = mesh, lost.size
-        fault = f"{lost.size} of its vertices are far from the tets, vertex {lost[0]} first"
-    if without_tips is None:
-        raise ValueError(
-            f"stuff_surface: edge_length is {edge_length:g} of the diagonal, too long for thin "
-            f"parts or gaps of the surface ({fault}); choose a shorter one, or use fill_surface"
-        )
-    mesh, count = without_tips
-    text = f"the tets leave out thin tips of the surface, {count} of its vertices"
-    notify(f"{text}, which follow the tets next to them", MeshNotice, stacklevel=2)
-    return _placed(mesh, surface)
-
-
-def _placed(mesh: TetMesh, surface: ClosedInput) -> TetMesh:
-    """Scales tets in a surface of diagonal one back, with a notice if they close gaps."""
-    notice_closed_gaps(mesh, surface)
-    return TetMesh(mesh.vertices * surface.diagonal + surface.center, mesh.tets)
+        _, distances = closest_boundary_faces(mesh, surface.vertices, limit=_LOST * cell)
+        if not np.isfinite(distances).all():
+            continue
+        if best is None or wrong_loops(mesh, surface) < wrong_loops(best, surface):
+            best = mesh
+        if wrong_loops(best, surface) == 0:
+            break
+    return best

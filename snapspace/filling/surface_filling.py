@@ -18,7 +18,7 @@ EXACTLY = "filling exactly"
 
 @dataclass(frozen=True, kw_only=True)
 class SurfaceFilling:
-    """Quick tets of one size in seconds, or tets by fTetWild in up to some minutes.
+    """Quick tets of a lattice in seconds, or tets by fTetWild in up to some minutes.
 
     edge_length : edge length of the tets, as a share of the diagonal; None for the default of each
         method: 0.025, and 0.02 for fTetWild

@@ -1,5 +1,6 @@
 """Isosurface stuffing: fills the inside of an implicit surface with tets."""
 
+from .graded_stuffing import GradedStuffing
 from .isosurface_stuffing import Progress, stuff
 
-__all__ = ["Progress", "stuff"]
+__all__ = ["GradedStuffing", "Progress", "stuff"]

@@ -12,9 +12,10 @@ from snapspace.arguments import require_positive
 from snapspace.mesh.morton_order import morton_order
 from snapspace.mesh.tet_mesh import TetMesh
 from snapspace.stuffing.bcc_lattice import BccLattice, lattice_around
-from snapspace.stuffing.cut_points import TET_EDGES, CutPoints, find_cut_points
+from snapspace.stuffing.clip import clip_tets
+from snapspace.stuffing.cut_points import find_cut_points
 from snapspace.stuffing.largest_component import largest_component
-from snapspace.stuffing.lattice_warp import warp_nodes
+from snapspace.stuffing.lattice_warp import lattice_edges, warp_nodes
 from snapspace.stuffing.manifold import is_closed_manifold
 from snapspace.stuffing.pinches import parted_at_pinches
 from snapspace.stuffing.root_finding import FloatArray, ImplicitFunction, evaluate
@@ -111,10 +112,10 @@ def stuff_unchecked(
     tets = lattice.tets_touching(inside)
     boundary_counter = None if progress is None else partial(progress, "boundary")
     cuts = find_cut_points(implicit, points, values, tets, boundary_counter)
-    points, signs, cuts = warp_nodes(
-        implicit, points, values, cuts, corner_count=lattice.corner_count, cell=cell
-    )
-    tets = clip_tets(tets, signs, lattice.odd_nodes(), cuts)
+    edges = lattice_edges(cuts, corner_count=lattice.corner_count, cell=cell)
+    points, signs, cuts = warp_nodes(implicit, points, values, cuts, edges)
+    odd = lattice.odd_nodes()
+    tets = clip_tets(tets, signs, case_numbers(signs[tets], odd[tets]), stencil_table(), cuts)
     if not len(tets):  # all nodes inside were moved to the surface
         raise ValueError(f"stuff: cell is {cell}, but no part of the shape is as thick")
     return _tidied(np.concatenate([points, cuts.points]), tets)
@@ -123,48 +124,6 @@ def stuff_unchecked(
 def _tidied(vertices: FloatArray, tets: NDArray[np.int64] | NDArray[np.int32]) -> TetMesh:
     """The largest component, along a Morton curve."""
     return TetMesh(*morton_order(*largest_component(vertices, tets)))
-
-
-def clip_tets(
-    tets: NDArray[np.int64],
-    signs: NDArray[np.int8],
-    odd: NDArray[np.bool_],
-    cuts: CutPoints,
-) -> NDArray[np.int64]:
-    """Clip lattice tets by the stencils; cut point c becomes vertex ``len(signs) + c``.
-
-    Parameters
-    ----------
-    tets : ndarray of int64, (m, 4)
-    signs : ndarray of int8, (nodes,)
-        -1 inside, 0 on the surface, 1 outside.
-    odd : ndarray of bool, (nodes,)
-        Parity of the nodes; it determines the diagonals.
-    cuts : CutPoints
-        The cut points on all edges from -1 to 1.
-
-    Returns
-    -------
-    ndarray of int64, (k, 4)
-        Tets with positive volumes.
-    """
-    numbers = case_numbers(signs[tets], odd[tets])
-    cut_keys = cuts.inside * len(signs) + cuts.outside
-    table = stencil_table()
-    pieces = []
-    for number in np.unique(numbers):
-        stencil = table[number]
-        chosen = tets[numbers == number]
-        local = np.zeros((len(chosen), 10), dtype=np.int64)
-        local[:, :4] = chosen
-        for point in np.unique(stencil[stencil >= 4]):
-            i, j = TET_EDGES[point - 4]
-            if signs[chosen[0, i]] > 0:
-                i, j = j, i
-            keys = chosen[:, i] * len(signs) + chosen[:, j]
-            local[:, point] = len(signs) + np.searchsorted(cut_keys, keys)
-        pieces.append(local[:, stencil].reshape(-1, 4))
-    return np.concatenate(pieces)
 
 
 def _box(lower: ArrayLike, upper: ArrayLike) -> tuple[FloatArray, FloatArray]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,14 +22,36 @@ ALPHA_LONG = 0.24999
 ALPHA_SHORT = 0.41189
 
 
+@dataclass(frozen=True)
+class CutEdges:
+    """The edges that have cut points.
+
+    alphas : (k,), shares of the edge within which its ends are too close to the cut point
+    lengths : (k,)
+    """
+
+    alphas: FloatArray
+    lengths: FloatArray
+
+
+def lattice_edges(cuts: CutPoints, *, corner_count: int, cell: float) -> CutEdges:
+    """The edges of a `BccLattice` with cut points.
+
+    corner_count : number of cell corners; later nodes are cell centres
+    cell : length of the long edges, which join two corners or two centres
+    """
+    is_long = (cuts.inside < corner_count) == (cuts.outside < corner_count)
+    return CutEdges(
+        np.where(is_long, ALPHA_LONG, ALPHA_SHORT), np.where(is_long, 1.0, np.sqrt(0.75)) * cell
+    )
+
+
 def warp_nodes(
     implicit: ImplicitFunction,
     points: FloatArray,
     values: FloatArray,
     cuts: CutPoints,
-    *,
-    corner_count: int,
-    cell: float,
+    edges: CutEdges,
 ) -> tuple[FloatArray, NDArray[np.int8], CutPoints]:
     """Move every violated node to its nearest cut point and drop the cut points on its edges.
 
@@ -43,11 +67,8 @@ def warp_nodes(
         Implicit function at the nodes.
     cuts : CutPoints
         The cut points on all edges with ends of opposite sign.
-    corner_count : int
-        Number of cell corners; later nodes are cell centres. It distinguishes long from short
-        edges.
-    cell : float
-        Length of the long edges.
+    edges : CutEdges
+        Of the same cuts.
 
     Returns
     -------
@@ -59,15 +80,11 @@ def warp_nodes(
         The remaining cut points, on edges where neither node has moved; their distance from both
         nodes is at least alpha times the edge length.
     """
-    is_long = (cuts.inside < corner_count) == (cuts.outside < corner_count)
-    alpha = np.where(is_long, ALPHA_LONG, ALPHA_SHORT)
-    length = np.where(is_long, 1.0, np.sqrt(0.75)) * cell
-
-    near_inside = np.flatnonzero(cuts.fractions < alpha)
-    near_outside = np.flatnonzero(1.0 - cuts.fractions < alpha)
+    near_inside = np.flatnonzero(cuts.fractions < edges.alphas)
+    near_outside = np.flatnonzero(1.0 - cuts.fractions < edges.alphas)
     cut = np.concatenate([near_inside, near_outside])
     node = np.concatenate([cuts.inside[near_inside], cuts.outside[near_outside]])
-    distance = length[cut] * np.concatenate(
+    distance = edges.lengths[cut] * np.concatenate(
         [cuts.fractions[near_inside], 1.0 - cuts.fractions[near_outside]]
     )
 

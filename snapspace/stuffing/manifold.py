@@ -15,6 +15,21 @@ def is_closed_manifold(faces: NDArray[np.int32]) -> bool:
     ----------
     faces : ndarray of int, (f, 3)
     """
+    fans = _fans(faces)
+    return fans is not None and int(fans.max()) + 1 == len(np.unique(faces))
+
+
+def pinched_vertices(faces: NDArray[np.int32]) -> NDArray[np.intp]:
+    """The vertices with several fans of faces, ascending; every edge must have two faces."""
+    fans = _fans(faces)
+    assert fans is not None
+    pairs = np.unique(np.stack([faces.reshape(-1), fans], axis=1), axis=0)
+    vertices, counts = np.unique(pairs[:, 0], return_counts=True)
+    return np.asarray(vertices[counts > 1], np.intp)
+
+
+def _fans(faces: NDArray[np.int32]) -> NDArray[np.int32] | None:
+    """The fan of each corner (3 f,), from 0; None unless every edge has two consistent faces."""
     stride = np.int64(faces.max()) + 1
     start = faces.astype(np.int64)
     end = np.roll(start, -1, axis=1)
@@ -23,10 +38,10 @@ def is_closed_manifold(faces: NDArray[np.int32]) -> bool:
     order = np.argsort(directed)
     ascending = directed[order]
     if np.any(ascending[1:] == ascending[:-1]):
-        return False
+        return None
     position = np.minimum(np.searchsorted(ascending, reverse), len(ascending) - 1)
     if not np.array_equal(ascending[position], reverse):
-        return False
+        return None
 
     # Corner c of the faces (row-major) starts directed edge c. Around a vertex, corner c is joined
     # to the corner of the next face, which follows the reverse of edge c.
@@ -34,8 +49,8 @@ def is_closed_manifold(faces: NDArray[np.int32]) -> bool:
     following = across - across % 3 + (across + 1) % 3
     corners = np.arange(faces.size)
     graph = coo_array((np.ones(faces.size, np.int8), (corners, following)), shape=(faces.size,) * 2)
-    fans, _ = connected_components(graph, directed=False)
-    return bool(fans == len(np.unique(faces)))
+    _, fans = connected_components(graph, directed=False)
+    return np.asarray(fans)
 
 
 def euler_characteristic(faces: NDArray[np.int32]) -> int:

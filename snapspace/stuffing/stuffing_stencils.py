@@ -71,7 +71,7 @@ def _stencil(signs: list[int], even: tuple[int, int]) -> list[tuple[int, ...]]:
     if not outside:
         return [(0, 1, 2, 3)]
     if len(inside) == 1:
-        return [tuple(_cut_point(inside[0], i) if i in outside else i for i in range(4))]
+        return [tuple(cut_point(inside[0], i) if i in outside else i for i in range(4))]
     # Even nodes first: the order in which prisms are built is the order of the parity rule.
     inside.sort(key=lambda i: i not in even)
     if len(outside) == 1:
@@ -83,7 +83,7 @@ def _truncated(inside: list[int], zero: list[int], tip: int) -> list[tuple[int, 
     """One corner, the tip, is cut off; a node on the surface is a shrunk line of the prism."""
     # If the tip's partner on the long edge is inside, all diagonals of its faces end at that cut.
     ranking = sorted(inside, key=lambda i: _PARTNER[i] == tip)
-    return _staircase([(i, _cut_point(i, tip)) for i in ranking] + [(i, i) for i in zero])
+    return staircase([(i, cut_point(i, tip)) for i in ranking] + [(i, i) for i in zero])
 
 
 def _wedge(inside: list[int], outside: list[int]) -> list[tuple[int, ...]]:
@@ -92,16 +92,14 @@ def _wedge(inside: list[int], outside: list[int]) -> list[tuple[int, ...]]:
     spine = (first, second)
     if _PARTNER[first] == second:
         # Lines go from the even to the odd node. The diagonal on the surface is arbitrary.
-        return _staircase(
-            [spine] + [(_cut_point(first, o), _cut_point(second, o)) for o in outside]
-        )
+        return staircase([spine] + [(cut_point(first, o), cut_point(second, o)) for o in outside])
     beside_first, beside_second = (
-        (_cut_point(first, _PARTNER[i]), _cut_point(second, _PARTNER[i])) for i in inside
+        (cut_point(first, _PARTNER[i]), cut_point(second, _PARTNER[i])) for i in inside
     )
-    return _staircase([beside_first, spine, beside_second])
+    return staircase([beside_first, spine, beside_second])
 
 
-def _staircase(lines: list[_Line]) -> list[tuple[int, ...]]:
+def staircase(lines: list[_Line]) -> list[tuple[int, ...]]:
     """Cut a prism: diagonals go from the start of each line to the ends of all later lines."""
     tets = []
     for k, (start, end) in enumerate(lines):
@@ -110,7 +108,7 @@ def _staircase(lines: list[_Line]) -> list[tuple[int, ...]]:
     return tets
 
 
-def _cut_point(i: int, j: int) -> int:
+def cut_point(i: int, j: int) -> int:
     return 4 + TET_EDGES.index((min(i, j), max(i, j)))
 
 

@@ -188,6 +188,7 @@ ALLOWED: dict[str, set[str]] = {
         "calibration",
         "displacements",
         "greedy",
+        "input_error",
         "interruptible",
         "mesh",
         "problem",

@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 
 from snapspace.filling import stuff_surface
+from snapspace.filling.graded_tets import LOST
 from snapspace.generators import bar, cylinder
 from snapspace.mesh import MeshNotice, TetMesh, repair_tets
 from snapspace.mesh.closed_surface import check_closed, enclosed_volume
 from snapspace.mesh.tet_search import closest_boundary_faces
-from snapspace.stuffing.manifold import euler_characteristic
+from snapspace.stuffing import stuff
+from snapspace.stuffing.manifold import euler_characteristic, is_closed_manifold
 
 from .surfaces import Surface, surface_of
 
@@ -56,10 +58,61 @@ def test_corners_are_cut_off_but_not_lost(edge_length: float) -> None:
     assert stuffed.volume == pytest.approx(mesh.volume, rel=edge_length)
 
 
+def lollipop(thickness: float) -> Surface:
+    """A ball of diameter one on a stick of length 1.5."""
+
+    def implicit(points: np.ndarray) -> np.ndarray:
+        x, y, z = points.T
+        stick = np.maximum(np.hypot(y, z) - thickness / 2, np.abs(x - 0.75) - 0.75)
+        return np.minimum(np.linalg.norm(points, axis=1) - 0.5, stick)
+
+    mesh = stuff(implicit, [-0.6, -0.6, -0.6], [1.6, 0.6, 0.6], thickness / 3)
+    return surface_of(mesh)
+
+
+def test_only_thin_parts_get_smaller_tets() -> None:
+    surface = lollipop(0.08)
+    mesh = stuff_surface(*surface, edge_length=0.1)
+    assert mesh.volume == pytest.approx(enclosed_volume(*surface), rel=0.05)
+    _, distances = closest_boundary_faces(mesh, surface[0], limit=np.inf)
+    assert distances.max() < LOST * 0.1 * mesh.diagonal
+    assert is_closed_manifold(mesh.surface) and euler_characteristic(mesh.surface) == 2
+    edges = np.ptp(mesh.vertices[mesh.tets], axis=1).max(axis=1)
+    x = mesh.vertices[mesh.tets].mean(axis=1)[:, 0]
+    ball, stick = edges[x < 0.2], edges[x > 0.8]
+    assert np.median(stick) < 0.6 * np.median(ball)
+    assert np.median(ball) > 0.6 * 0.1 * mesh.diagonal, "the ball keeps its large tets"
+    again = stuff_surface(*surface, edge_length=0.1)
+    assert np.array_equal(again.tets, mesh.tets)
+
+
+def test_smaller_tets_keep_open_what_larger_ones_would_join() -> None:
+    """Two fingers with a gap of a third of an edge between them."""
+    fork = bar(8, 5, 4, length=2.0, width=1.0, height=0.8)
+    low = fork.vertices.min(axis=0)
+    middle = fork.vertices[fork.tets].mean(axis=1) - low
+    gap = (np.abs(middle[:, 1] - 0.5) < 0.1) & (middle[:, 0] > 0.5)
+    vertices, faces = surface_of(repair_tets(fork.vertices, fork.tets[~gap])[0])
+    steps = np.unique(vertices[:, 1])
+    vertices[:, 1] = np.interp(vertices[:, 1], steps, [-0.4, -0.2, -0.03, 0.03, 0.2, 0.4])
+    mesh = stuff_surface(vertices, faces, edge_length=0.06)  # a notice would be an error
+    assert euler_characteristic(mesh.surface) == 2
+
+
 def test_a_part_that_is_too_thin_is_an_error() -> None:
-    mesh = bar(16, 1, 1, length=4.0, width=0.02, height=0.02)
-    with pytest.raises(ValueError, match=r"edge_length is 0\.1 of the diagonal, too long"):
+    mesh = bar(16, 1, 1, length=4.0, width=0.002, height=0.002)
+    with pytest.raises(
+        ValueError,
+        match=r"edge_length is 0\.1 of the diagonal, too long .*with tets of an eighth of that",
+    ):
         stuff_surface(*surface_of(mesh), edge_length=0.1)
+
+
+def test_overlapping_parts_are_joined_with_a_notice() -> None:
+    """The ends of a ring cross each other."""
+    with pytest.warns(MeshNotice, match="join parts of the surface that nearly touch"):
+        mesh = stuff_surface(*ring(-0.1), edge_length=0.02)
+    assert is_closed_manifold(mesh.surface)
 
 
 def ring(gap: float) -> Surface:

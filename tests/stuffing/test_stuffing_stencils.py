@@ -6,10 +6,10 @@ import pytest
 from snapspace.mesh.quality import dihedral_angles, tet_volumes
 from snapspace.mesh.surface import boundary_faces
 from snapspace.stuffing.bcc_lattice import lattice_around
+from snapspace.stuffing.clip import clip_tets
 from snapspace.stuffing.cut_points import TET_EDGES, CutPoints
-from snapspace.stuffing.isosurface_stuffing import clip_tets
-from snapspace.stuffing.lattice_warp import ALPHA_LONG, ALPHA_SHORT, warp_nodes
-from snapspace.stuffing.stuffing_stencils import stencil_table
+from snapspace.stuffing.lattice_warp import ALPHA_LONG, ALPHA_SHORT, lattice_edges, warp_nodes
+from snapspace.stuffing.stuffing_stencils import case_numbers, stencil_table
 
 SHAPE = np.array([[-1.0, 0.0, -0.5], [1.0, 0.0, -0.5], [0.0, 1.0, 0.5], [0.0, -1.0, 0.5]])
 
@@ -29,11 +29,11 @@ def test_stencils_fill_exactly_the_inside_of_a_linear_function() -> None:
                 points[4 + k] = (1.0 - t) * SHAPE[i] + t * SHAPE[j]
         volumes = tet_volumes(points, stencil)
         assert (volumes > 0.0).all()
-        expected = tet_volumes(SHAPE, np.array([[0, 1, 2, 3]]))[0] * _fraction_below_zero(values)
+        expected = tet_volumes(SHAPE, np.array([[0, 1, 2, 3]]))[0] * fraction_below_zero(values)
         assert volumes.sum() == pytest.approx(expected, abs=1e-7)
 
 
-def _fraction_below_zero(values: np.ndarray) -> float:
+def fraction_below_zero(values: np.ndarray) -> float:
     """The share of a tet where the linear function with these corner values is negative."""
     if values.max() <= 0.0:
         return 1.0 if values.min() < 0.0 else 0.0
@@ -57,10 +57,10 @@ def test_random_signs_and_worst_cuts_conform_and_are_well_shaped(seed: int) -> N
     values[lattice.on_border()] = 1.0
     tets = lattice.tets_touching(values < 0.0)
     cuts = _random_cuts(rng, points, values, tets)
-    moved, signs, kept = warp_nodes(
-        _unused, points, values, cuts, corner_count=lattice.corner_count, cell=1.0
-    )
-    clipped = clip_tets(tets, signs, lattice.odd_nodes(), kept)
+    edges = lattice_edges(cuts, corner_count=lattice.corner_count, cell=1.0)
+    moved, signs, kept = warp_nodes(_unused, points, values, cuts, edges)
+    numbers = case_numbers(signs[tets], lattice.odd_nodes()[tets])
+    clipped = clip_tets(tets, signs, numbers, stencil_table(), kept)
     vertices = np.concatenate([moved, kept.points])
     assert tet_volumes(vertices, clipped).min() > 0.0
     assert dihedral_angles(vertices, clipped).min() > 8.0
