@@ -40,8 +40,21 @@ def solid_of(points: np.ndarray, faces: np.ndarray, *, edge_length: float) -> So
         try:
             mesh = ss.fill_surface(points, faces, edge_length=edge_length, mend=True)
         except MissingExtraError:  # the extension comes without fTetWild
-            raise reason from None
+            mesh = _with_closed_gaps(points, faces, edge_length, reason)
     return Solid(mesh, ss.embed_surface(points, faces, mesh, farthest=1.0))
+
+
+def _with_closed_gaps(
+    points: np.ndarray, faces: np.ndarray, edge_length: float, reason: ValueError
+) -> ss.TetMesh:
+    """Quick tets that may close any number of narrow gaps; raises `reason` if there are none."""
+    every = len(faces)
+    try:
+        return ss.stuff_surface(
+            points, faces, edge_length=edge_length, mend=True, most_closed=every
+        )
+    except ValueError:
+        raise reason from None
 
 
 def posing_growths(

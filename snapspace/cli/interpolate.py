@@ -174,7 +174,8 @@ def interpolate(
     cache = FitCache.beside(output)
     options = PoseOptions(
         tets=tets,
-        filling=filling,
+        # a gap that tets close in the first pose may be wide in another one
+        filling=replace(filling, most_closed=0),
         deviation=deviation,
         thickness=thickness,
         scale=scale,

@@ -60,8 +60,8 @@ def thin_finding(volume: float, area: float, diagonal: float) -> list[Finding]:
             fault=False,
             count=1,
             text=f"its parts are {100 * thickness:.2g} % of the diagonal thick on average",
-            meaning="tets are about as long as a part is thick, so many are needed",
-            cure="fill it with fTetWild (pip install 'snapspace[fill]'), or thicken it",
+            meaning="tets are about as long as a part is thick, so many smaller ones are needed",
+            cure="nothing; if it cannot be filled, use a shell, or thicken it",
             details={"thickness": thickness},
         )
     ]

@@ -26,9 +26,9 @@ LOST = 0.6
 NEARLY_LOST = 0.3
 #: Distance of these points from each other.
 SPACING = 0.4
-#: Limits on tets, on places where their boundary touches itself, and on loops that the surface does
-#: not have. Surfaces that intersect themselves exceed them at every size.
-MOST_TETS, MOST_TOUCHING, MOST_LOOPS = 200_000, 100, 4
+#: Limits on tets, and on places where their boundary touches itself. Surfaces that intersect
+#: themselves exceed them at every size.
+MOST_TETS, MOST_TOUCHING = 200_000, 100
 #: Smallest share of the tets that is left where they are parted.
 KEPT = 0.98
 
@@ -38,6 +38,7 @@ def graded_tets(
     implicit: ImplicitFunction,
     cell: float,
     *,
+    most_closed: int,
     progress: Progress | None = None,
 ) -> TetMesh:
     """Fills a surface, with cells halved where larger ones lose a part of it, until none is lost.
@@ -53,6 +54,8 @@ def graded_tets(
         Its signed distance.
     cell : float
         Edge length of the largest cells.
+    most_closed : int
+        Largest number of wrong loops of the boundary.
     progress : as for `stuff`
 
     Returns
@@ -69,7 +72,7 @@ def graded_tets(
     points = surface_points(surface.vertices, surface.faces, SPACING * cell)
     low, high = points.min(axis=0), points.max(axis=0)
     stuffing = GradedStuffing(implicit, low, high, cell, levels=LEVELS, progress=progress)
-    levels, best, fewest = np.zeros(len(points), np.intp), None, MOST_LOOPS + 1
+    levels, best, fewest = np.zeros(len(points), np.intp), None, most_closed + 1
     for _ in range(TRIES):
         finer = levels > 0
         vertices, tets = stuffing.tets(points[finer], levels[finer])

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import require_function
+from ..arguments import require_count, require_function
 from ..mesh import TetMesh
 from ..mesh.arrays import FloatArray
 from ..mesh.signed_distance import SignedDistance
@@ -17,7 +17,7 @@ from ..stuffing import Progress, stuff
 from ..stuffing.root_finding import ImplicitFunction
 from .closed_gaps import notice_closed_gaps, wrong_loops
 from .closed_input import ClosedInput, check_share, closed_input
-from .graded_tets import MOST_LOOPS, graded_tets
+from .graded_tets import graded_tets
 
 # Vertices of the surface farther than this from tets of one size, in edge lengths, are in a lost
 # part.
@@ -32,6 +32,7 @@ def stuff_surface(
     *,
     edge_length: float = 0.025,
     mend: bool = False,
+    most_closed: int = 4,
     progress: Progress | None = None,
 ) -> TetMesh:
     """Fills a closed triangle surface with tets of one size, or smaller ones where it is thin.
@@ -49,6 +50,9 @@ def stuff_surface(
     mend : bool, default False
         Mend a surface that is not closed or not consistently oriented, see `mend_surface`. A
         `MeshNotice` says what was done. A surface that stays open is refused.
+    most_closed : int, default 4
+        Largest number of narrow gaps or holes that the tets may close. For a pose that others are
+        blended with, 0 is safer: where another pose opens such a gap, tets would be torn apart.
     progress : callable, optional
         Called with "inside" and two numbers of points, done and in all; then with "boundary" and
         the numbers of steps towards the surface. Called again for each shorter edge that is tried.
@@ -66,8 +70,8 @@ def stuff_surface(
     ------
     ValueError
         For wrong shapes or types, coordinates that are not finite, an index out of range, no faces,
-        a surface that is not closed, not consistently oriented or encloses no volume, an edge
-        length out of range, or if parts or gaps are too thin for the edge length, or touch each
+        a surface that is not closed, not consistently oriented or encloses no volume, options out
+        of range, or if parts or gaps are too thin for the edge length, or touch each
         other or intersect; use `fill_surface` for such surfaces.
 
     Notes
@@ -78,6 +82,7 @@ def stuff_surface(
     """
     surface = closed_input(vertices, faces, who="stuff_surface", mend=mend)
     check_share(edge_length, "edge_length", largest=0.5, who="stuff_surface")
+    most_closed = require_count("stuff_surface", "most_closed", most_closed, at_least=0)
     require_function("stuff_surface", "progress", progress)
     distance = SignedDistance(surface.vertices, surface.faces)
 
@@ -86,7 +91,7 @@ def stuff_surface(
         return distance(points)
 
     try:
-        mesh = _filled(surface, implicit, edge_length, progress)
+        mesh = _filled(surface, implicit, edge_length, most_closed, progress)
     except ValueError as error:
         raise ValueError(
             f"stuff_surface: edge_length is {edge_length:g} of the diagonal, too long for thin "
@@ -97,7 +102,11 @@ def stuff_surface(
 
 
 def _filled(
-    surface: ClosedInput, implicit: ImplicitFunction, cell: float, progress: Progress | None
+    surface: ClosedInput,
+    implicit: ImplicitFunction,
+    cell: float,
+    most_closed: int,
+    progress: Progress | None,
 ) -> TetMesh:
     """Tets of one size, if they lose no part; smaller ones in some places if that is better."""
     even = _even_tets(surface, implicit, cell, progress)
@@ -105,9 +114,9 @@ def _filled(
     if even is not None and wrong == 0:
         return even
     try:
-        graded = graded_tets(surface, implicit, cell, progress=progress)
+        graded = graded_tets(surface, implicit, cell, most_closed=most_closed, progress=progress)
     except ValueError:
-        if even is not None and wrong <= MOST_LOOPS:
+        if even is not None and wrong <= most_closed:
             return even
         raise
     return even if even is not None and wrong <= wrong_loops(graded, surface) else graded

@@ -23,10 +23,12 @@ class SurfaceFilling:
     edge_length : edge length of the tets, as a share of the diagonal; None for the default of each
         method: 0.025, and 0.02 for fTetWild
     exact : whether to use fTetWild at once, and not only for surfaces where quick tets fail
+    most_closed : largest number of narrow gaps or holes that quick tets may close
     """
 
     edge_length: float | None = None
     exact: bool = False
+    most_closed: int = 4
 
     def fill(self, vertices: ArrayLike, faces: ArrayLike, *, stage: Callable[..., None]) -> TetMesh:
         """Tets inside a surface, which is mended if it is not closed.
@@ -43,6 +45,7 @@ class SurfaceFilling:
                     vertices,
                     faces,
                     mend=True,
+                    most_closed=self.most_closed,
                     progress=lambda part, done, total: stage(f"filling {part}", done, total),
                     **sized,
                 )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -128,6 +130,8 @@ def test_a_notice_says_if_a_gap_is_closed() -> None:
     with pytest.warns(MeshNotice, match="join parts of the surface that nearly touch, in 1 place;"):
         stuff_surface(*ring(0.01), edge_length=0.03)
     stuff_surface(*ring(0.1), edge_length=0.03)  # a notice would be an error
+    with pytest.raises(ValueError, match="too long for thin parts or gaps"):
+        stuff_surface(*ring(0.01), edge_length=0.03, most_closed=0)
 
 
 def test_a_notice_says_if_a_hole_is_closed() -> None:
@@ -157,6 +161,12 @@ def test_two_solids_are_refused(barrel: Surface) -> None:
 def test_the_edge_length_is_checked(barrel: Surface, edge_length: float) -> None:
     with pytest.raises(ValueError, match="stuff_surface: edge_length is"):
         stuff_surface(*barrel, edge_length=edge_length)
+
+
+@pytest.mark.parametrize("most", [-1, 0.5, None])
+def test_the_number_of_closed_gaps_is_checked(barrel: Surface, most: Any) -> None:
+    with pytest.raises(ValueError, match="stuff_surface: most_closed is"):
+        stuff_surface(*barrel, most_closed=most)
 
 
 def test_an_open_surface_is_refused(barrel: Surface) -> None:

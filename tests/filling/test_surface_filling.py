@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 import pytest
 
-from snapspace.filling import SurfaceFilling
+from snapspace.filling import SurfaceFilling, surface_filling
 from snapspace.generators import bar
 from snapspace.mesh import MeshNotice, TetMesh, compact_surface
 from snapspace.stuffing import root_finding
 
 from ..shapes import one_tet
+from .test_stuff_surface import ring
 
 ORDER = ["filling", "filling inside", "filling boundary"]
 
@@ -71,3 +75,20 @@ def test_an_open_surface_is_mended_with_a_notice() -> None:
     with pytest.warns(MeshNotice, match="closed 1 hole with 1 face"):
         mesh = SurfaceFilling(edge_length=0.1).fill(vertices, faces[1:], stage=lambda *_: None)
     assert mesh.volume == pytest.approx(block.volume, rel=0.05)
+
+
+def test_more_closed_gaps_than_allowed_leave_the_surface_to_ftetwild(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A ring whose ends are nearer than the tets: poses must not be blended when it is closed."""
+
+    def exactly(*_: Any, **__: Any) -> TetMesh:
+        return one_tet()
+
+    monkeypatch.setattr(surface_filling, "fill_surface", exactly)
+    quick = SurfaceFilling(edge_length=0.03)
+    with pytest.warns(MeshNotice, match="in 1 place"):
+        closed = quick.fill(*ring(0.01), stage=lambda *_: None)
+    assert len(closed.tets) > 100
+    open_ = replace(quick, most_closed=0).fill(*ring(0.01), stage=lambda *_: None)
+    assert len(open_.tets) == 1
