@@ -29,9 +29,9 @@ LOST = 0.4
 NEARLY_LOST = 0.3
 #: Largest distance of these points from each other.
 SPACING = 0.4
-#: Limits on tets, and on places where their boundary touches itself. Surfaces that intersect
-#: themselves exceed them at every size.
-MOST_TETS, MOST_TOUCHING = 200_000, 100
+#: Limits on tets, which may also be a multiple of those of the first try, and on places where their
+#: boundary touches itself. Surfaces that intersect themselves exceed the latter at every size.
+MOST_TETS, MOST_GROWTH, MOST_TOUCHING = 200_000, 4, 100
 #: Smallest share of the tets that is left where they are parted.
 KEPT = 0.98
 
@@ -72,17 +72,20 @@ def graded_tets(
     ValueError
         If that takes more than three halvings, or one of the limits of this module is exceeded.
     """
-    points = surface_points(surface.vertices, surface.faces, SPACING * cell)
-    low, high = points.min(axis=0), points.max(axis=0)
+    low, high = surface.vertices.min(axis=0), surface.vertices.max(axis=0)
     stuffing = GradedStuffing(implicit, low, high, cell, levels=LEVELS, progress=progress)
+    points = surface_points(surface.vertices, surface.faces, SPACING * cell)
     levels, best, fewest = np.zeros(len(points), np.intp), None, math.inf
+    most_tets = MOST_TETS
     for _ in range(TRIES):
         finer = levels > 0
         vertices, tets = stuffing.tets(points[finer], levels[finer])
         distances, touching = np.full(len(points), np.inf), np.zeros((0, 3))
         if len(tets):
             mesh, touching = _apart(TetMesh(vertices, tets))
-            if len(tets) > MOST_TETS or (len(touching) > MOST_TOUCHING and finer.any()):
+            if not finer.any():
+                most_tets = max(MOST_TETS, MOST_GROWTH * len(tets))
+            elif len(tets) > most_tets or len(touching) > MOST_TOUCHING:
                 break
             _, distances = closest_boundary_faces(mesh, points, limit=np.inf)
         if (distances <= LOST * cell).all() and is_closed_manifold(mesh.surface):

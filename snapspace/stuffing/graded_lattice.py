@@ -10,6 +10,7 @@ from scipy.spatial import cKDTree
 
 from snapspace.stuffing.bcc_lattice import BccLattice
 from snapspace.stuffing.halved_tets import (
+    MOST_COORDINATE,
     Keys,
     Mask,
     can_fit,
@@ -54,18 +55,37 @@ class GradedLattice:
         The largest cells.
     levels : int
         How often cells can be halved.
+    wanted : ndarray of bool, (nodes,), default all
+        Nodes of the lattice; tets without one of them are left out.
+
+    Raises
+    ------
+    ValueError
+        For more than 2^20 halves of the smallest cells along an axis.
+
+    Attributes
+    ----------
+    keys : (nodes,)
+        Of the nodes of the lattice, in its order.
     """
 
-    def __init__(self, lattice: BccLattice, levels: int) -> None:
+    def __init__(self, lattice: BccLattice, levels: int, wanted: Mask | None = None) -> None:
         self._cell, self._levels = lattice.cell, levels
         self._unit = lattice.cell / 2.0 / 2**levels
         nodes = np.rint(lattice.points() / (lattice.cell / 2.0)).astype(np.int64)
         self._first = nodes.min(axis=0)
-        tets = lattice.tets_touching(~lattice.on_border())
-        self._tets = node_keys((nodes - self._first) << levels)[tets]
+        most = int(np.ptp(nodes, axis=0).max()) << levels
+        if most >= MOST_COORDINATE:
+            raise ValueError(
+                f"GradedLattice: cell is {lattice.cell}, which makes {most} half cells along an "
+                f"axis, but at most {MOST_COORDINATE} can be numbered; use a larger cell"
+            )
+        self.keys = node_keys((nodes - self._first) << levels)
+        inner = ~lattice.on_border()
+        self._tets = self.keys[lattice.tets_touching(inner if wanted is None else inner & wanted)]
 
     def tets(self, centers: FloatArray, levels: Levels) -> GradedTets:
-        """The tets of the box, where those around each center (c, 3) have been halved `levels` (c,)
+        """The tets, where those around each center (c, 3) have been halved `levels` (c,)
         times: conforming, and neighbours differ by one level at most.
         """
         regular, others, whole = [], [], self._tets

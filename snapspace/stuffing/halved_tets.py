@@ -15,6 +15,8 @@ Keys = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 _BITS = 20  # of a coordinate in a key
+#: Coordinates of nodes are below this.
+MOST_COORDINATE = 1 << _BITS
 # The three edges of each face, as numbers of TET_EDGES, with its corners.
 _FACES = {
     tuple(k for k, edge in enumerate(TET_EDGES) if set(edge) <= set(face)): face

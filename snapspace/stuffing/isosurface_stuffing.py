@@ -96,13 +96,7 @@ def stuff_unchecked(
     progress: Progress | None = None,
 ) -> TetMesh:
     """Like `stuff`, but the surface may touch itself where features are as small as the cells."""
-    cell = require_positive("stuff", "cell", cell)
-    lattice = lattice_around(*_box(lower, upper), cell)
-    if np.prod(np.array(lattice.corners, dtype=float)) > _MOST_CELLS:
-        raise ValueError(
-            f"stuff: cell is {cell}, which makes {lattice.corners} cells in the box, but at most"
-            f" {_MOST_CELLS} are allowed; use a larger cell"
-        )
+    lattice = lattice_in(lower, upper, cell)
     points = lattice.points()
     inside_counter = None if progress is None else partial(progress, "inside")
     values = evaluate(implicit, points, inside_counter)
@@ -119,6 +113,18 @@ def stuff_unchecked(
     if not len(tets):  # all nodes inside were moved to the surface
         raise ValueError(f"stuff: cell is {cell}, but no part of the shape is as thick")
     return _tidied(np.concatenate([points, cuts.points]), tets)
+
+
+def lattice_in(lower: ArrayLike, upper: ArrayLike, cell: float) -> BccLattice:
+    """The lattice in a box; ValueError for an invalid box or cell, or too many cells."""
+    cell = require_positive("stuff", "cell", cell)
+    lattice = lattice_around(*_box(lower, upper), cell)
+    if np.prod(np.array(lattice.corners, dtype=float)) > _MOST_CELLS:
+        raise ValueError(
+            f"stuff: cell is {cell}, which makes {lattice.corners} cells in the box, but at most"
+            f" {_MOST_CELLS} are allowed; use a larger cell"
+        )
+    return lattice
 
 
 def _tidied(vertices: FloatArray, tets: NDArray[np.int64] | NDArray[np.int32]) -> TetMesh:

@@ -12,7 +12,12 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from snapspace.stuffing.stuffing_stencils import cut_point, staircase
+from snapspace.stuffing.stuffing_stencils import (
+    cut_point,
+    nodes_by_sign,
+    staircase,
+    without_diagonals,
+)
 
 
 def ranked_numbers(signs: NDArray[np.int8]) -> NDArray[np.int64]:
@@ -34,13 +39,9 @@ def ranked_table() -> tuple[NDArray[np.int64], ...]:
 
 
 def _stencil(signs: list[int]) -> list[tuple[int, ...]]:
-    inside, zero, outside = ([i for i in range(4) if signs[i] == s] for s in (-1, 0, 1))
-    if not inside:
-        return []
-    if not outside:
-        return [(0, 1, 2, 3)]
-    if len(inside) == 1:
-        return [tuple(cut_point(inside[0], i) if i in outside else i for i in range(4))]
+    inside, zero, outside = nodes_by_sign(signs)
+    if (plain := without_diagonals(inside, outside)) is not None:
+        return plain
     if len(outside) == 1:
         lines = [(i, cut_point(i, outside[0])) for i in inside]
         return staircase(lines + [(i, i) for i in zero])

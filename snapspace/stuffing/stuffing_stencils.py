@@ -64,14 +64,26 @@ def stencil_table() -> tuple[NDArray[np.int64], ...]:
     return tuple(cases)
 
 
-def _stencil(signs: list[int], even: tuple[int, int]) -> list[tuple[int, ...]]:
-    inside, zero, outside = ([i for i in range(4) if signs[i] == s] for s in (-1, 0, 1))
+def nodes_by_sign(signs: list[int]) -> list[list[int]]:
+    """The nodes inside, on the surface and outside."""
+    return [[i for i in range(4) if signs[i] == s] for s in (-1, 0, 1)]
+
+
+def without_diagonals(inside: list[int], outside: list[int]) -> list[tuple[int, ...]] | None:
+    """The stencil of nodes whose part inside is a tet, or nothing; otherwise None."""
     if not inside:
         return []
     if not outside:
         return [(0, 1, 2, 3)]
     if len(inside) == 1:
         return [tuple(cut_point(inside[0], i) if i in outside else i for i in range(4))]
+    return None
+
+
+def _stencil(signs: list[int], even: tuple[int, int]) -> list[tuple[int, ...]]:
+    inside, zero, outside = nodes_by_sign(signs)
+    if (plain := without_diagonals(inside, outside)) is not None:
+        return plain
     # Even nodes first: the order in which prisms are built is the order of the parity rule.
     inside.sort(key=lambda i: i not in even)
     if len(outside) == 1:

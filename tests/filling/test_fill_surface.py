@@ -40,7 +40,7 @@ def test_passes_are_reported_while_it_works(
     barrel: Surface, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A pass must last longer than the pause between two looks."""
-    monkeypatch.setattr(ftetwild, "POLL_SECONDS", 0.002)
+    monkeypatch.setattr(ftetwild, "POLL_SECONDS", 0.0005)
     passes: list[int] = []
     fill_surface(*barrel, edge_length=0.05, tolerance=1e-3, progress=passes.append)
     assert passes and passes == sorted(set(passes))

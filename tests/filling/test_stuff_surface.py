@@ -110,6 +110,11 @@ def test_a_part_that_is_too_thin_is_an_error() -> None:
         stuff_surface(*surface_of(mesh), edge_length=0.1)
 
 
+def test_more_cells_than_memory_has_room_for_are_refused(barrel: Surface) -> None:
+    with pytest.raises(ValueError, match="edge_length is 1e-05 of the diagonal"):
+        stuff_surface(*barrel, edge_length=1e-5)
+
+
 def test_overlapping_parts_are_joined_with_a_notice() -> None:
     """The ends of a ring cross each other."""
     with pytest.warns(MeshNotice, match="join parts of the surface that nearly touch"):

@@ -95,6 +95,12 @@ def test_tets_conform_wherever_they_get_smaller(
     assert filled == pytest.approx(all_of_it)
 
 
+def test_more_cells_than_keys_can_name_are_refused() -> None:
+    wire = lattice_around(np.zeros(3), np.array([100_000.0, 1.0, 1.0]), 1.0)
+    with pytest.raises(ValueError, match=r"GradedLattice: cell is 1\.0, which makes .* half cells"):
+        GradedLattice(wire, LEVELS)
+
+
 def test_the_smallest_cells_are_around_the_center_and_regular() -> None:
     center = np.array([2.1, 1.9, 2.2])
     grid = lattice().tets(center[None], np.array([LEVELS]))

@@ -10,12 +10,11 @@ from hypothesis import strategies as st
 from snapspace.mesh import TetMesh
 from snapspace.mesh.quality import tet_volumes
 from snapspace.stuffing import GradedStuffing
-from snapspace.stuffing.cut_points import TET_EDGES
 from snapspace.stuffing.ranked_stencils import ranked_table
 
 from ..generators.conforming import assert_solid
 from .test_isosurface_stuffing import BOX, ball, torus
-from .test_stuffing_stencils import SHAPE, fraction_below_zero
+from .test_stuffing_stencils import SHAPE, fraction_below_zero, local_points
 
 LOW, HIGH = (np.array(corner) for corner in BOX)
 
@@ -25,13 +24,7 @@ def test_stencils_fill_exactly_the_inside_of_a_linear_function() -> None:
     for number, stencil in enumerate(ranked_table()):
         signs = np.array([number // 3**i % 3 - 1 for i in range(4)])
         values = signs * rng.uniform(0.2, 1.0, 4)
-        points = np.full((10, 3), np.nan)
-        points[:4] = SHAPE
-        for k, (i, j) in enumerate(TET_EDGES):
-            if signs[i] * signs[j] < 0:
-                t = values[i] / (values[i] - values[j])
-                points[4 + k] = (1.0 - t) * SHAPE[i] + t * SHAPE[j]
-        volumes = np.abs(tet_volumes(points, stencil))
+        volumes = np.abs(tet_volumes(local_points(values), stencil))
         expected = tet_volumes(SHAPE, np.array([[0, 1, 2, 3]]))[0] * fraction_below_zero(values)
         assert volumes.sum() == pytest.approx(expected, abs=1e-7), "no overlaps, no gaps"
 

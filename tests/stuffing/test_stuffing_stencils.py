@@ -21,16 +21,21 @@ def test_stencils_fill_exactly_the_inside_of_a_linear_function() -> None:
     for number, stencil in enumerate(stencil_table()):
         signs = np.array([number // 3**i % 3 - 1 for i in range(4)])
         values = signs * rng.uniform(0.5, 2.0, 4)
-        points = np.full((10, 3), np.nan)
-        points[:4] = SHAPE
-        for k, (i, j) in enumerate(TET_EDGES):
-            if signs[i] * signs[j] < 0:
-                t = values[i] / (values[i] - values[j])
-                points[4 + k] = (1.0 - t) * SHAPE[i] + t * SHAPE[j]
-        volumes = tet_volumes(points, stencil)
+        volumes = tet_volumes(local_points(values), stencil)
         assert (volumes > 0.0).all()
         expected = tet_volumes(SHAPE, np.array([[0, 1, 2, 3]]))[0] * fraction_below_zero(values)
         assert volumes.sum() == pytest.approx(expected, abs=1e-7)
+
+
+def local_points(values: np.ndarray) -> np.ndarray:
+    """The corners of a tet, and where a linear function with these values vanishes on edges."""
+    points = np.full((10, 3), np.nan)
+    points[:4] = SHAPE
+    for k, (i, j) in enumerate(TET_EDGES):
+        if values[i] * values[j] < 0:
+            t = values[i] / (values[i] - values[j])
+            points[4 + k] = (1.0 - t) * SHAPE[i] + t * SHAPE[j]
+    return points
 
 
 def fraction_below_zero(values: np.ndarray) -> float:
