@@ -98,9 +98,10 @@ def ftetwild(
 class _Output:
     """What a process writes, read as it comes."""
 
-    def __init__(self, stream: IO[str]) -> None:
+    def __init__(self, stream: IO[str], progress: Callable[[int], None] | None) -> None:
+        self._progress = progress
         self._lines: list[str] = []
-        self.passes = 0
+        self._passes = self._reported = 0
         self._thread = threading.Thread(target=self._read, args=(stream,), daemon=True)
         self._thread.start()
 
@@ -109,12 +110,27 @@ class _Output:
         self._thread.join()
         return "".join(self._lines)
 
+    def report(self) -> None:
+        """Calls `progress` with the number of passes, if there are more than at the last call."""
+        passes = self._passes
+        if self._progress is not None and passes > self._reported:
+            self._reported = passes
+            self._progress(passes)
+
     def _read(self, stream: IO[str]) -> None:
         for line in stream:
             self._lines.append(line)
             found = _PASS.match(line)
             if found:
-                self.passes = int(found[1]) + 1
+                self._passes = int(found[1]) + 1
+
+
+def _waited(process: subprocess.Popen[str]) -> int | None:
+    """Exit status of a process; None if it does not end within `POLL_SECONDS`."""
+    try:
+        return process.wait(POLL_SECONDS)
+    except subprocess.TimeoutExpired:
+        return None
 
 
 def _run(folder: Path, progress: Callable[[int], None] | None = None) -> tuple[int, str]:
@@ -137,15 +153,13 @@ def _run(folder: Path, progress: Callable[[int], None] | None = None) -> tuple[i
             watched = -1
             try:
                 assert process.stdout is not None
-                output, told = _Output(process.stdout), 0
-                while True:
-                    try:
-                        return process.wait(POLL_SECONDS), output.text()
-                    except subprocess.TimeoutExpired:
-                        check_stop()
-                    if progress is not None and output.passes > told:
-                        told = output.passes
-                        progress(told)
+                output = _Output(process.stdout, progress)
+                while (status := _waited(process)) is None:
+                    check_stop()
+                    output.report()
+                text = output.text()
+                output.report()  # passes that ended since the last look
+                return status, text
             except BaseException:
                 os.close(alive)
                 alive = -1
