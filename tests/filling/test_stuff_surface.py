@@ -118,7 +118,7 @@ def test_more_cells_than_memory_has_room_for_are_refused(barrel: Surface) -> Non
 def test_overlapping_parts_are_joined_with_a_notice() -> None:
     """The ends of a ring cross each other."""
     with pytest.warns(MeshNotice, match="join parts of the surface that nearly touch"):
-        mesh = stuff_surface(*ring(-0.1), edge_length=0.02)
+        mesh = stuff_surface(*ring(-0.1), edge_length=0.05)
     assert is_closed_manifold(mesh.surface)
 
 
@@ -133,10 +133,10 @@ def ring(gap: float) -> Surface:
 def test_a_notice_says_if_a_gap_is_closed() -> None:
     """The ends of the ring are joined, and would move as one."""
     with pytest.warns(MeshNotice, match="join parts of the surface that nearly touch, in 1 place;"):
-        stuff_surface(*ring(0.01), edge_length=0.03)
-    stuff_surface(*ring(0.1), edge_length=0.03)  # a notice would be an error
+        stuff_surface(*ring(0.01), edge_length=0.06)
+    stuff_surface(*ring(0.1), edge_length=0.06)  # a notice would be an error
     with pytest.raises(ValueError, match="too long for thin parts or gaps"):
-        stuff_surface(*ring(0.01), edge_length=0.03, most_closed=0)
+        stuff_surface(*ring(0.01), edge_length=0.06, most_closed=0)
 
 
 def test_a_notice_says_if_a_hole_is_closed() -> None:

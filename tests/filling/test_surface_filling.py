@@ -86,7 +86,7 @@ def test_more_closed_gaps_than_allowed_leave_the_surface_to_ftetwild(
         return one_tet()
 
     monkeypatch.setattr(surface_filling, "fill_surface", exactly)
-    quick = SurfaceFilling(edge_length=0.03)
+    quick = SurfaceFilling(edge_length=0.06)
     with pytest.warns(MeshNotice, match="in 1 place"):
         closed = quick.fill(*ring(0.01), stage=lambda *_: None)
     assert len(closed.tets) > 100

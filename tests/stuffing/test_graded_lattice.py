@@ -76,7 +76,7 @@ def assert_conforming(grid: GradedTets) -> None:
     assert ((middle < 0.0) | (middle > 4.0)).any(axis=1).all(), "an open face inside the box"
 
 
-@settings(max_examples=20)
+@settings(max_examples=15)
 @given(
     centers=st.lists(st.tuples(*[st.floats(0.5, 3.5)] * 3), min_size=1, max_size=5),
     seed=st.integers(0, 99),
