@@ -127,7 +127,7 @@ def _even_tets(
 ) -> TetMesh | None:
     """Tets of one size, with as few wrong loops as possible; None if they lose parts."""
     low, high = surface.vertices.min(axis=0), surface.vertices.max(axis=0)
-    best = None
+    found: list[TetMesh] = []
     for scale in _SCALES:
         cell = scale * edge_length
         try:
@@ -135,10 +135,8 @@ def _even_tets(
         except ValueError:  # the boundary touches itself
             continue
         _, distances = closest_boundary_faces(mesh, surface.vertices, limit=_LOST * cell)
-        if not np.isfinite(distances).all():
-            continue
-        if best is None or wrong_loops(mesh, surface) < wrong_loops(best, surface):
-            best = mesh
-        if wrong_loops(best, surface) == 0:
-            break
-    return best
+        if np.isfinite(distances).all():
+            found.append(mesh)
+            if wrong_loops(mesh, surface) == 0:
+                break
+    return min(found, key=lambda mesh: wrong_loops(mesh, surface), default=None)

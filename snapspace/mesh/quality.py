@@ -60,6 +60,14 @@ def flat_tets(vertices: FloatArray, tets: IndexArray, volumes: FloatArray) -> ND
     return np.asarray(np.abs(volumes) <= _FLAT * longest_edges(vertices, tets) ** 3, dtype=np.bool_)
 
 
+def turned_right(vertices: FloatArray, tets: IndexArray) -> IndexArray:
+    """Tets (m, 4) with the last two corners of inverted ones exchanged: no volume is negative."""
+    turned = tets.copy()
+    inverted = tet_volumes(vertices, tets) < 0.0
+    turned[inverted] = tets[inverted][:, [0, 1, 3, 2]]
+    return turned
+
+
 def dihedral_angles(vertices: FloatArray, tets: IndexArray) -> FloatArray:
     """Dihedral angles of tets in degrees, at the edges 01, 02, 03, 12, 13, 23.
 

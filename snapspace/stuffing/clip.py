@@ -25,7 +25,7 @@ def clip_tets(
     signs : ndarray of int8, (nodes,)
         -1 inside, 0 on the surface, 1 outside.
     numbers : ndarray of int64, (m,)
-        The row of the table for each tet, `case_numbers` or `ranked_numbers`.
+        The row of the table for each tet, `case_numbers` or `sign_numbers`.
     table : sequence of ndarray
         `stencil_table` or `ranked_table`.
     cuts : CutPoints

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from snapspace.mesh.quality import tet_volumes
+from snapspace.mesh.quality import turned_right
 from snapspace.stuffing.clip import clip_tets
 from snapspace.stuffing.cut_points import CutPoints, find_cut_points
 from snapspace.stuffing.graded_lattice import GradedLattice, GradedTets, Levels
@@ -15,8 +15,9 @@ from snapspace.stuffing.halved_tets import coordinates_of
 from snapspace.stuffing.isosurface_stuffing import Progress, lattice_in
 from snapspace.stuffing.largest_component import largest_component
 from snapspace.stuffing.lattice_warp import ALPHA_LONG, ALPHA_SHORT, CutEdges, warp_nodes
-from snapspace.stuffing.ranked_stencils import ranked_numbers, ranked_table
+from snapspace.stuffing.ranked_stencils import ranked_table
 from snapspace.stuffing.root_finding import FloatArray, ImplicitFunction, evaluate
+from snapspace.stuffing.stuffing_stencils import sign_numbers
 
 
 class GradedStuffing:
@@ -74,11 +75,9 @@ class GradedStuffing:
             self._implicit, grid.points, values, cuts, _cut_edges(grid, cuts)
         )
         tets = np.sort(tets, axis=1)
-        clipped = clip_tets(tets, signs, ranked_numbers(signs[tets]), ranked_table(), cuts)
+        clipped = clip_tets(tets, signs, sign_numbers(signs[tets]), ranked_table(), cuts)
         vertices, inside = largest_component(np.concatenate([points, cuts.points]), clipped)
-        inverted = tet_volumes(vertices, inside) < 0.0
-        inside[inverted] = inside[inverted][:, [0, 1, 3, 2]]
-        return vertices, inside
+        return vertices, turned_right(vertices, inside)
 
     def _values(self, grid: GradedTets) -> FloatArray:
         """The implicit function at the nodes."""

@@ -15,27 +15,20 @@ from numpy.typing import NDArray
 from snapspace.stuffing.stuffing_stencils import (
     cut_point,
     nodes_by_sign,
+    signs_of,
     staircase,
     without_diagonals,
 )
 
 
-def ranked_numbers(signs: NDArray[np.int8]) -> NDArray[np.int64]:
-    """Row of `ranked_table` for tets whose nodes ascend, (m,).
-
-    signs : (m, 4), -1 inside, 0 on the surface, 1 outside
-    """
-    return np.asarray((signs + 1).astype(np.int64) @ [1, 3, 9, 27])
-
-
 @lru_cache(maxsize=1)
 def ranked_table() -> tuple[NDArray[np.int64], ...]:
-    """Tets of each of the 81 cases, as `stencil_table`, but of either orientation."""
-    cases = []
-    for number in range(81):
-        signs = [number // 3**i % 3 - 1 for i in range(4)]
-        cases.append(np.array(_stencil(signs), dtype=np.int64).reshape(-1, 4))
-    return tuple(cases)
+    """Tets of each of the 81 cases of `sign_numbers`, for tets whose nodes ascend.
+
+    As `stencil_table`, but of either orientation.
+    """
+    stencils = [_stencil(signs_of(number)) for number in range(81)]
+    return tuple(np.array(tets, dtype=np.int64).reshape(-1, 4) for tets in stencils)
 
 
 def _stencil(signs: list[int]) -> list[tuple[int, ...]]:

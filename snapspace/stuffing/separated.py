@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from snapspace.mesh.edges import edges_of
-from snapspace.mesh.quality import tet_volumes
+from snapspace.mesh.quality import turned_right
 from snapspace.mesh.surface import boundary_faces
 from snapspace.stuffing.largest_component import largest_component
 from snapspace.stuffing.manifold import pinched_vertices
@@ -79,7 +79,5 @@ def _without_corner(vertices: FloatArray, tets: Tets, vertex: int) -> tuple[Floa
     corners = np.concatenate([bases, tops], axis=1)
     pieces = np.array(staircase([(0, 3), (1, 4), (2, 5)]))
     vertices = np.concatenate([vertices, (vertices[others] + vertices[vertex]) / 2.0])
-    rest = corners[:, pieces].reshape(-1, 4)
-    inverted = tet_volumes(vertices, rest) < 0.0
-    rest[inverted] = rest[inverted][:, [0, 1, 3, 2]]
+    rest = turned_right(vertices, corners[:, pieces].reshape(-1, 4))
     return vertices, np.concatenate([tets[~around], rest])

@@ -43,8 +43,18 @@ def case_numbers(signs: NDArray[np.int8], odd: NDArray[np.bool_]) -> NDArray[np.
     ndarray of int64, (m,)
         The sum of (sign_i + 1) 3^i, plus 81 if node 0 is odd, plus 162 if node 2 is odd.
     """
-    numbers = (signs + 1).astype(np.int64) @ [1, 3, 9, 27]
+    numbers = sign_numbers(signs)
     return np.asarray(numbers + 81 * odd[:, 0] + 162 * odd[:, 2], dtype=np.int64)
+
+
+def sign_numbers(signs: NDArray[np.int8]) -> NDArray[np.int64]:
+    """The sum of (sign_i + 1) 3^i for each tet, (m,), from signs (m, 4)."""
+    return np.asarray((signs + 1).astype(np.int64) @ [1, 3, 9, 27], dtype=np.int64)
+
+
+def signs_of(number: int) -> list[int]:
+    """The signs with a sum modulo 81."""
+    return [number // 3**i % 3 - 1 for i in range(4)]
 
 
 @lru_cache(maxsize=1)
@@ -58,7 +68,7 @@ def stencil_table() -> tuple[NDArray[np.int64], ...]:
     """
     cases = []
     for number in range(324):
-        signs = [number // 3**i % 3 - 1 for i in range(4)]
+        signs = signs_of(number)
         even = (number // 81 % 2, 2 + number // 162)
         cases.append(_oriented(_stencil(signs, even)))
     return tuple(cases)
