@@ -86,7 +86,7 @@ def check_surface(vertices: ArrayLike, faces: ArrayLike) -> SurfaceReport:
     -------
     SurfaceReport
         It does not depend on the unit of length. Vertices with equal positions count as one if the
-        surface is closed only then.
+        surface is closed only then, or if faces coincide.
 
     Raises
     ------

@@ -20,7 +20,8 @@ class Cleaned:
     """Faces whose edges can be counted.
 
     faces : (g, 3), without degenerate and duplicate ones; the indices are those of the input
-    merged : number of points that were merged into others, because the surface is closed only then
+    merged : number of points that were merged into others, because the surface is closed only then,
+        or because faces coincide
     degenerate : number of faces with a repeated vertex, which were left out
     duplicate : number of faces with the vertices of another one, which were left out
     """
@@ -32,24 +33,40 @@ class Cleaned:
 
 
 def cleaned(vertices: FloatArray, faces: IndexArray) -> Cleaned:
-    """Leaves out useless faces; merges equal points if the surface has boundary edges."""
+    """Leaves out useless faces.
+
+    Merges equal points if the surface has boundary edges, or faces that coincide.
+    """
+    joined = _on_first_points(vertices, faces)
     merged = 0
-    if _open(faces):
-        first, group = equal_points(vertices)
-        used = np.unique(faces)
-        target = first[group].astype(np.int32)
-        merged = int((target[used] != used).sum())
-        faces = target[faces]
-    repeated = (faces == np.roll(faces, 1, axis=1)).any(axis=1)
-    kept = faces[~repeated]
+    if _open(faces) or repeated_faces(_proper(joined)).any():
+        merged = len(np.unique(faces)) - len(np.unique(joined))
+        faces = joined
+    kept = _proper(faces)
     useless = repeated_faces(kept)
     if useless.any():
         useless |= _walls(kept)
-    return Cleaned(kept[~useless], merged, int(repeated.sum()), int(useless.sum()))
+    return Cleaned(kept[~useless], merged, len(faces) - len(kept), int(useless.sum()))
+
+
+def coincide(vertices: FloatArray, faces: IndexArray) -> bool:
+    """Whether two faces have the same three positions, as the sides of a wall between solids."""
+    return bool(repeated_faces(_proper(_on_first_points(vertices, faces))).any())
+
+
+def _on_first_points(vertices: FloatArray, faces: IndexArray) -> IndexArray:
+    """The faces with the first of equal points instead of all of them."""
+    first, group = equal_points(vertices)
+    return np.asarray(first[group].astype(np.int32)[faces])
+
+
+def _proper(faces: IndexArray) -> IndexArray:
+    """The faces whose vertices are three different ones."""
+    return np.asarray(faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)])
 
 
 def _open(faces: IndexArray) -> bool:
-    proper = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
+    proper = _proper(faces)
     return not len(proper) or bool((edges_of(proper).uses == 1).any())
 
 

@@ -49,11 +49,12 @@ def mend_surface(
 ) -> MendedSurface:
     """Makes a surface closed and consistently oriented, as far as that is safe.
 
-    In this order, it merges vertices with equal positions if the surface is not closed without
-    that; drops faces that name a vertex twice or repeat another face, and both sides of walls
-    between solids; drops vertices without faces; flips faces until neighbours agree; closes holes
-    that are simple loops and flat (within 15 % of their diameter) or small (5 % of the diagonal),
-    with the triangulation of smallest area between their vertices; and turns all faces outward.
+    In this order, it merges vertices with equal positions if the surface is not closed without that
+    or if faces coincide; drops faces that name a vertex twice or repeat another face, and both
+    sides of walls between solids; drops vertices without faces; flips faces until neighbours agree;
+    closes holes that are simple loops and flat (within 15 % of their diameter) or small (5 % of the
+    diagonal), with the triangulation of smallest area between their vertices; and turns all faces
+    outward.
 
     Parameters
     ----------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..arguments import is_number, shown
 from ..counted import counted
+from ..doctor.cleaned import coincide
 from ..doctor.edge_findings import DUST
 from ..doctor.mend_surface import mend_surface
 from ..doctor.parts_apart import parts_apart
@@ -47,9 +49,9 @@ def closed_input(
 ) -> ClosedInput:
     """Checks and scales a surface to diagonal one; ValueError unless it encloses a solid.
 
-    With `mend`, a surface that is not closed or not consistently oriented is mended, see
-    `mend_surface`, and a `MeshNotice` says what was done. With `leave_open` as well, the result may
-    still be open.
+    With `mend`, a surface that is not closed or not consistently oriented, or has faces that
+    coincide, is mended, see `mend_surface`, and a `MeshNotice` says what was done. With
+    `leave_open` as well, the result may still be open.
     """
     points = as_points(vertices, who=who)
     triangles = as_indices(faces, corners=3, who=who, what="faces")
@@ -63,7 +65,11 @@ def closed_input(
     except InputError as error:
         if not mend or not len(triangles):
             raise
-        points, triangles, closed = _mended(points, triangles, error, leave_open=leave_open)
+        points, triangles, closed = _mended(points, triangles, error.place, leave_open=leave_open)
+    else:
+        if mend and coincide(points, triangles):
+            with suppress(ValueError):  # it is closed only with the faces that coincide: they stay
+                points, triangles, _ = _mended(points, triangles, who)
     triangles = _one_part(points, triangles, who=who)
     points, triangles = compact_surface(points, triangles)
     center = (points.min(axis=0) + points.max(axis=0)) / 2.0
@@ -78,13 +84,13 @@ def closed_input(
 
 
 def _mended(
-    points: FloatArray, triangles: IndexArray, error: InputError, *, leave_open: bool
+    points: FloatArray, triangles: IndexArray, who: str, *, leave_open: bool = False
 ) -> tuple[FloatArray, IndexArray, bool]:
     """Vertices and faces, and whether they are closed now; the error if they must be."""
     mended = mend_surface(points, triangles)
     done = [f"the surface was mended for filling: {'; '.join(mended.notes)}"] * bool(mended.notes)
     try:
-        check_closed(mended.faces, who=error.place)
+        check_closed(mended.faces, who=who)
         closed = True
     except InputError as left:
         if not leave_open:

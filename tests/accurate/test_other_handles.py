@@ -235,7 +235,7 @@ def test_a_target_that_the_first_model_meets_ends_the_search(
     built = accurate_model(tail, start=start, target_error=0.03)
     assert built.reached and len(built.steps) == 1
     assert built.held_out.all(), "only the samples that judge were solved"
-    tight = accurate_model(tail, start=start, target_error=0.8 * built.step.error, most_samples=64)
+    tight = accurate_model(tail, start=start, target_error=0.8 * built.step.error, most_samples=56)
     assert tight.step.error < built.step.error and len(tight.snapshots) > len(built.snapshots)
 
 

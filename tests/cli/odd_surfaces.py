@@ -58,13 +58,19 @@ def ball(rings: int, radius: float = 1.0) -> Surface:
     return radius * vertices, np.concatenate(faces).astype(np.int32)
 
 
-def together(*surfaces: Surface) -> Surface:
-    """Several surfaces as one, with equal points merged."""
+def beside(*surfaces: Surface) -> Surface:
+    """Several surfaces as one, each with its own points."""
     points = np.concatenate([vertices for vertices, _ in surfaces])
     starts = np.cumsum([0, *(len(vertices) for vertices, _ in surfaces[:-1])])
     faces = [faces + start for (_, faces), start in zip(surfaces, starts, strict=True)]
-    merged, index = np.unique(np.round(points, 9), axis=0, return_inverse=True)
-    return merged, index.reshape(-1)[np.concatenate(faces)].astype(np.int32)
+    return np.round(points, 9), np.concatenate(faces).astype(np.int32)
+
+
+def together(*surfaces: Surface) -> Surface:
+    """Several surfaces as one, with equal points merged."""
+    points, faces = beside(*surfaces)
+    merged, index = np.unique(points, axis=0, return_inverse=True)
+    return merged, index.reshape(-1)[faces].astype(np.int32)
 
 
 def turned(surface: Surface) -> Surface:
@@ -119,7 +125,24 @@ ODD = {
         others=("components",),
     ),
     "a wall inside": Odd(
-        surface=together(block(), block(x=2.0)), faults=("duplicate faces",), volume=4.0
+        surface=together(block(), block(y=1.0)),
+        faults=("duplicate faces",),
+        volume=4.0,
+        said="dropped 128 faces",
+    ),
+    "two blocks that meet in a wall": Odd(
+        surface=beside(block(), block(y=1.0)),
+        faults=("duplicate faces",),
+        others=("seams",),
+        volume=4.0,
+        said="dropped 128 faces",
+    ),
+    "a copy of itself": Odd(
+        surface=beside(block(), block()),
+        faults=("duplicate faces",),
+        others=("seams",),
+        volume=2.0,
+        said="dropped 320 faces",
     ),
     "an edge of four faces": Odd(
         surface=together(block(), block(y=1.0, z=1.0)), others=("non-manifold edges",)

@@ -43,6 +43,7 @@ def test_handles_computation_and_pose_are_there_again(
     set_number(page, "Error of unseen motions, %", 0.01)
     widen(page)
     chosen, made = handles(page), parts(page)
+    page.page.wait_for_timeout(300)  # the page sends choices soon, not at once
     reload(page, "choosing")
     assert re.search(r"[?&]workspace=[\w-]+", page.page.url)
     assert (handles(page), parts(page)) == (chosen, made)
