@@ -173,7 +173,7 @@ class ScalarFactor:
 
 class FaceTree:
     """
-    The triangles (f, 3) of a surface with vertices (n, 3), for searches of closest faces.
+    The triangles (f, 3) of a surface with vertices (n, 3), for searches of closest faces, and for winding numbers.
     """
 
     def __init__(self, vertices: NDArray[numpy.float64], faces: NDArray[numpy.int32]) -> None: ...
@@ -181,6 +181,11 @@ class FaceTree:
     def closest(self, points: NDArray[numpy.float64], limit: float, threads: int = 0) -> tuple[NDArray[numpy.int32], NDArray[numpy.float64], NDArray[numpy.float64]]:
         """
         The face closest to each point (k, 3), the first of equally close ones, or -1 if none is within the limit; its distance, or inf; and the closest point on it (k, 3), or nan. threads: 0 for all.
+        """
+
+    def windings(self, points: NDArray[numpy.float64], threads: int = 0) -> NDArray[numpy.int32]:
+        """
+        How often a closed surface encloses each point (k, 3). threads: 0 for all.
         """
 
 class InverseKind(enum.Enum):

@@ -29,12 +29,20 @@ std::tuple<IndicesOut, DoublesOut, DoublesOut> closest(const FaceTree& tree, Mat
   return {faces, distances, feet};
 }
 
+IndicesOut windings(const FaceTree& tree, MatrixIn points, int threads) {
+  require(points.shape(1) == 3, "points must be (k, 3)");
+  IndicesOut found = new_array<std::int32_t>({points.shape(0)});
+  const ReleasedGil released;
+  tree.windings(points.data(), static_cast<int>(points.shape(0)), threads, found.data());
+  return found;
+}
+
 }  // namespace
 
 void bind_face_tree(nb::module_& m) {
   nb::class_<FaceTree>(m, "FaceTree",
                        "The triangles (f, 3) of a surface with vertices (n, 3), for searches of "
-                       "closest faces.")
+                       "closest faces, and for winding numbers.")
       .def(
           "__init__",
           [](FaceTree* self, MatrixIn vertices, IndexMatrixIn faces) {
@@ -48,7 +56,9 @@ void bind_face_tree(nb::module_& m) {
       .def("closest", &closest, nb::arg("points"), nb::arg("limit"), nb::arg("threads") = 0,
            "The face closest to each point (k, 3), the first of equally close ones, or -1 if none "
            "is within the limit; its distance, or inf; and the closest point on it (k, 3), or nan. "
-           "threads: 0 for all.");
+           "threads: 0 for all.")
+      .def("windings", &windings, nb::arg("points"), nb::arg("threads") = 0,
+           "How often a closed surface encloses each point (k, 3). threads: 0 for all.");
 }
 
 }  // namespace snapspace

@@ -52,6 +52,23 @@ Vector3d closest_on_triangle(const Eigen::Matrix3d& corners, const Vector3d& poi
   return best;
 }
 
+/// How often a triangle encloses a point in the projection along x: 1 or -1, depending on its
+/// orientation, or 0. An edge counts as crossed on one side only and from its lower end, so that
+/// triangles with a common edge agree, whatever the rounding.
+int projected_winding(const Eigen::Matrix3d& corners, const Vector3d& point) {
+  int winding = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d start = corners.col(k), end = corners.col((k + 1) % 3);
+    const bool rises = end.z() > point.z();
+    if (rises == (start.z() > point.z())) continue;
+    const Vector3d &low = rises ? start : end, &high = rises ? end : start;
+    const double side =
+        (high.y() - low.y()) * (point.z() - low.z()) - (point.y() - low.y()) * (high.z() - low.z());
+    if (side > 0.0) winding += rises ? 1 : -1;
+  }
+  return winding;
+}
+
 }  // namespace
 
 FaceTree::FaceTree(const double* vertices, const std::int32_t* faces, int face_count)
@@ -142,6 +159,40 @@ void FaceTree::closest(const double* points, int count, double limit, int thread
       found[k] = closest(point, limit * limit, likely);
       likely = found[k].face;
     }
+  });
+}
+
+std::int32_t FaceTree::winding(const Vector3d& point) const {
+  std::int32_t sum = 0;
+  std::array<std::int32_t, most_waiting> waiting;
+  int count = 0;
+  waiting[count++] = 0;
+  while (count > 0) {
+    const std::int32_t index = waiting[--count];
+    const Node& node = nodes_[index];
+    const Vector3d &low = node.box.min(), &high = node.box.max();
+    if (high.x() < point.x() || low.y() > point.y() || high.y() < point.y() ||
+        low.z() > point.z() || high.z() < point.z())
+      continue;
+    for (int k = 0; k < node.face_count; ++k) {
+      const Triangle& corners = triangles_[node.first_face + k];
+      const int winding = projected_winding(corners, point);
+      if (winding == 0) continue;
+      const Vector3d start = corners.col(0);
+      const Vector3d normal = (corners.col(1) - start).cross(corners.col(2) - start);
+      if (winding * normal.dot(start - point) > 0.0) sum += winding;
+    }
+    if (node.face_count > 0) continue;
+    waiting[count++] = node.second_child;
+    waiting[count++] = index + 1;
+  }
+  return sum;
+}
+
+void FaceTree::windings(const double* points, int count, int threads, std::int32_t* found) const {
+  parallel_for((count + chunk - 1) / chunk, threads, [&](int part) {
+    for (int k = part * chunk; k < std::min(count, (part + 1) * chunk); ++k)
+      found[k] = winding(Eigen::Map<const Vector3d>(points + 3 * static_cast<std::size_t>(k)));
   });
 }
 

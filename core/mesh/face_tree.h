@@ -14,7 +14,8 @@ struct ClosestFace {
   Eigen::Vector3d foot = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 
-/// The triangles of a surface in a balanced tree of boxes, which finds the closest one to a point.
+/// The triangles of a surface in a balanced tree of boxes, which finds the closest one to a point,
+/// and those that a ray crosses.
 class FaceTree {
  public:
   /// @param vertices  three coordinates for each
@@ -25,6 +26,10 @@ class FaceTree {
   /// @param limit  largest distance of interest
   void closest(const double* points, int count, double limit, int threads,
                ClosestFace* found) const;
+
+  /// The winding numbers of a closed surface around points, count x 3: how often it encloses each.
+  /// On the surface, the number is that of one of the sides.
+  void windings(const double* points, int count, int threads, std::int32_t* found) const;
 
  private:
   /// A node's first child follows it. Leaves have a number of faces.
@@ -39,6 +44,7 @@ class FaceTree {
   [[nodiscard]] ClosestFace closest(const Eigen::Vector3d& point, double squared_limit,
                                     std::int32_t likely) const;
   void measure(int place, const Eigen::Vector3d& point, ClosestFace& best) const;
+  [[nodiscard]] std::int32_t winding(const Eigen::Vector3d& point) const;
 
   double rounding_ = 0.0;  ///< bound on the error of a small squared distance
   std::vector<Node> nodes_;

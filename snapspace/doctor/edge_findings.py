@@ -166,7 +166,7 @@ def _parts(count: int, group: NDArray[np.intp], share: FloatArray) -> Finding:
         count=count,
         text=text,
         meaning="filling needs one solid: it refuses large separate parts, leaves out those below "
-        f"{DUST:.1%} of the volume, and makes one solid of overlapping ones with fTetWild",
+        f"{DUST:.1%} of the volume, and makes one solid of overlapping ones",
         cure="join them, or remove separate parts; eyes and clothes can follow the body with "
         "`snapspace pose --surface FILE`",
         details={"shares": share[:100].tolist()},

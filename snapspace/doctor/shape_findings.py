@@ -112,9 +112,8 @@ def crossing_finding(vertices: FloatArray, faces: IndexArray) -> list[Finding]:
             count=len(pairs),
             text=f"{counted(len(pairs), 'pair of faces crosses', 'pairs of faces cross')} "
             f"(the first: {first} and {second})",
-            meaning="quick tets may be wrong there; fTetWild makes one solid of overlapping parts",
-            cure="fill it with fTetWild (pip install 'snapspace[fill]'; --exact of `build` and "
-            "`view`), or correct it in a mesh editor",
+            meaning="tets make one solid of overlapping parts, so these cannot move apart",
+            cure="nothing, if they belong together; otherwise part them in a mesh editor",
             details={"pairs": pairs[:100].tolist()},
         )
     ]

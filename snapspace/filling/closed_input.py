@@ -20,6 +20,7 @@ from ..mesh.arrays import FloatArray, IndexArray, as_indices, as_points
 from ..mesh.closed_surface import check_closed, enclosed_volume, is_flat
 from ..mesh.validation import check_indices, check_points
 from ..notice import notify
+from .outward import facing_outward
 
 
 class NoSolidError(ValueError):
@@ -28,7 +29,7 @@ class NoSolidError(ValueError):
 
 @dataclass(frozen=True, kw_only=True)
 class ClosedInput:
-    """A checked surface, centred at the origin with diagonal one, oriented outward.
+    """A checked surface, centred at the origin with diagonal one, oriented outward part by part.
 
     vertices : ndarray, (s, 3)
     faces : ndarray of int32, (f, 3)
@@ -79,7 +80,7 @@ def closed_input(
     volume = enclosed_volume(scaled, triangles)
     if closed and abs(volume) < np.finfo(np.float64).eps:
         raise _no_volume(triangles, who=who)
-    outward = triangles if volume > 0 else np.ascontiguousarray(triangles[:, ::-1])
+    outward = facing_outward(scaled, triangles)
     return ClosedInput(vertices=scaled, faces=outward, center=center, diagonal=diagonal)
 
 

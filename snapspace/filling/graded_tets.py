@@ -14,11 +14,9 @@ from ..mesh.morton_order import morton_order
 from ..mesh.tet_search import closest_boundary_faces
 from ..stuffing import GradedStuffing, Progress
 from ..stuffing.manifold import is_closed_manifold
-from ..stuffing.root_finding import ImplicitFunction
 from ..stuffing.separated import separated, touching_vertices
 from .closed_gaps import wrong_loops
-from .closed_input import ClosedInput
-from .surface_points import surface_points
+from .enclosed_solid import EnclosedSolid
 
 #: How often cells may be halved, and how many fillings are tried.
 LEVELS, TRIES = 3, 7
@@ -30,31 +28,27 @@ NEARLY_LOST = 0.3
 #: Largest distance of these points from each other.
 SPACING = 0.4
 #: Limits on tets, which may also be a multiple of those of the first try, and on places where their
-#: boundary touches itself. Surfaces that intersect themselves exceed the latter at every size.
+#: boundary touches itself. Surfaces that are thin everywhere exceed the latter.
 MOST_TETS, MOST_GROWTH, MOST_TOUCHING = 200_000, 4, 100
 #: Smallest share of the tets that is left where they are parted.
 KEPT = 0.98
 
 
 def graded_tets(
-    surface: ClosedInput,
-    implicit: ImplicitFunction,
+    solid: EnclosedSolid,
     cell: float,
     *,
     most_closed: int,
     progress: Progress | None = None,
 ) -> TetMesh:
-    """Fills a surface, with cells halved where larger ones lose a part of it, until none is lost.
+    """Fills a solid, with cells halved where larger ones lose a part of it, until none is lost.
 
     Cells are also halved where the boundary of the tets touches itself. If it has loops that the
     surface does not have, further tries have to reduce their number.
 
     Parameters
     ----------
-    surface : ClosedInput
-        Of diagonal one.
-    implicit : callable
-        Its signed distance.
+    solid : EnclosedSolid
     cell : float
         Edge length of the largest cells.
     most_closed : int
@@ -72,9 +66,9 @@ def graded_tets(
     ValueError
         If that takes more than three halvings, or one of the limits of this module is exceeded.
     """
-    low, high = surface.vertices.min(axis=0), surface.vertices.max(axis=0)
-    stuffing = GradedStuffing(implicit, low, high, cell, levels=LEVELS, progress=progress)
-    points = surface_points(surface.vertices, surface.faces, SPACING * cell)
+    low, high = solid.vertices.min(axis=0), solid.vertices.max(axis=0)
+    stuffing = GradedStuffing(solid.distance, low, high, cell, levels=LEVELS, progress=progress)
+    points = solid.points(SPACING * cell, clear=LOST * cell)
     levels, best, fewest = np.zeros(len(points), np.intp), None, math.inf
     most_tets = MOST_TETS
     for _ in range(TRIES):
@@ -89,7 +83,7 @@ def graded_tets(
                 break
             _, distances = closest_boundary_faces(mesh, points, limit=np.inf)
         if (distances <= LOST * cell).all() and is_closed_manifold(mesh.surface):
-            loops = wrong_loops(mesh, surface)
+            loops = wrong_loops(mesh, solid)
             is_better, fewest = loops < fewest, min(loops, fewest)
             best = mesh if is_better else best
             if not loops or not is_better:

@@ -19,7 +19,13 @@ class SignedDistance:
     ----------
     vertices : ndarray, (s, 3)
     faces : ndarray of int, (f, 3)
-        Closed and oriented outward. Where faces intersect, signs near them may be wrong.
+        Closed and oriented outward. Where faces intersect, signs near them may be wrong: `windings`
+        are not.
+
+    Attributes
+    ----------
+    face_normals, vertex_normals : ndarray, (f, 3) and (s, 3)
+        Unit vectors, or zero for faces without area. Those of vertices are weighted by angles.
 
     Notes
     -----
@@ -31,14 +37,14 @@ class SignedDistance:
     def __init__(self, vertices: FloatArray, faces: IndexArray) -> None:
         self._faces, self._corners = faces, vertices[faces]
         self._tree = core.FaceTree(vertices, faces)
-        self._face_normals = _unit(
+        self.face_normals = _unit(
             np.cross(
                 self._corners[:, 1] - self._corners[:, 0], self._corners[:, 2] - self._corners[:, 0]
             )
         )
-        self._edge_normals = _edge_normals(faces, self._face_normals)
-        self._vertex_normals = _vertex_normals(
-            len(vertices), faces, self._corners, self._face_normals
+        self._edge_normals = _edge_normals(faces, self.face_normals)
+        self.vertex_normals = _unit(
+            _vertex_normals(len(vertices), faces, self._corners, self.face_normals)
         )
 
     def __call__(self, points: FloatArray) -> FloatArray:
@@ -48,16 +54,20 @@ class SignedDistance:
         signed: FloatArray = np.where(outward, distances, -distances)
         return signed
 
+    def windings(self, points: FloatArray) -> IndexArray:
+        """How often the surface encloses each point (k, 3), as (k,)."""
+        return self._tree.windings(points)
+
     def _normals(self, face: IndexArray, closest: FloatArray) -> FloatArray:
         """Normals (k, 3) of the face, edge or vertex that each closest point is on."""
         on = _barycentric(self._corners[face], closest) > _EDGE
-        normals = self._face_normals[face]
+        normals = self.face_normals[face]
         count = on.sum(axis=1)
         for corner in range(3):
             edge = (count == 2) & ~on[:, corner]  # the edge opposite to the corner
             normals[edge] = self._edge_normals[face[edge], corner]
             vertex = (count <= 1) & on[:, corner]
-            normals[vertex] = self._vertex_normals[self._faces[face[vertex], corner]]
+            normals[vertex] = self.vertex_normals[self._faces[face[vertex], corner]]
         return normals
 
 

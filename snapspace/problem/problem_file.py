@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..arguments import as_path, require_type
-from ..filling import stuff_surface
+from ..filling.stuff_surface import stuff_surface
 from ..mesh import (
     Body,
     EmbeddedSurface,

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from snapspace.generators import bar
 from snapspace.mesh import compact_surface
 
+from ..filling.surfaces import beside
+
 Surface = tuple[NDArray[np.float64], NDArray[np.int32]]
 
 
@@ -58,18 +60,10 @@ def ball(rings: int, radius: float = 1.0) -> Surface:
     return radius * vertices, np.concatenate(faces).astype(np.int32)
 
 
-def beside(*surfaces: Surface) -> Surface:
-    """Several surfaces as one, each with its own points."""
-    points = np.concatenate([vertices for vertices, _ in surfaces])
-    starts = np.cumsum([0, *(len(vertices) for vertices, _ in surfaces[:-1])])
-    faces = [faces + start for (_, faces), start in zip(surfaces, starts, strict=True)]
-    return np.round(points, 9), np.concatenate(faces).astype(np.int32)
-
-
 def together(*surfaces: Surface) -> Surface:
     """Several surfaces as one, with equal points merged."""
     points, faces = beside(*surfaces)
-    merged, index = np.unique(points, axis=0, return_inverse=True)
+    merged, index = np.unique(np.round(points, 9), axis=0, return_inverse=True)
     return merged, index.reshape(-1)[faces].astype(np.int32)
 
 

@@ -16,7 +16,7 @@ from snapspace.mesh.tet_search import closest_boundary_faces
 from snapspace.stuffing import stuff
 from snapspace.stuffing.manifold import euler_characteristic, is_closed_manifold
 
-from .surfaces import Surface, surface_of
+from .surfaces import Surface, beside, box, inside_out, surface_of
 
 EDGE = 0.07
 
@@ -115,11 +115,35 @@ def test_more_cells_than_memory_has_room_for_are_refused(barrel: Surface) -> Non
         stuff_surface(*barrel, edge_length=1e-5)
 
 
-def test_overlapping_parts_are_joined_with_a_notice() -> None:
+def test_overlapping_ends_are_joined_with_a_notice() -> None:
     """The ends of a ring cross each other."""
-    with pytest.warns(MeshNotice, match="join parts of the surface that nearly touch"):
+    with pytest.warns(MeshNotice, match="join parts of the surface that nearly touch, in 1 place;"):
         mesh = stuff_surface(*ring(-0.1), edge_length=0.05)
-    assert is_closed_manifold(mesh.surface)
+    assert is_closed_manifold(mesh.surface) and euler_characteristic(mesh.surface) == 0
+
+
+def test_overlapping_parts_are_filled_as_their_union() -> None:
+    body, arm = box(0.0, 0.0, 0.0), box(1.6, 0.3, 0.4, size=(1.25, 0.5, 0.5))
+    with pytest.warns(MeshNotice, match="one solid of separate parts that overlap"):
+        mesh = stuff_surface(*beside(body, arm), edge_length=0.03)
+    assert mesh.volume == pytest.approx(2.0 + (1.25 - 0.4) * 0.5 * 0.5, rel=0.02)
+    assert euler_characteristic(mesh.surface) == 2
+    with pytest.warns(MeshNotice, match="one solid of separate parts that overlap"):
+        again = stuff_surface(*beside(body, inside_out(arm)), edge_length=0.03)
+    assert np.array_equal(again.vertices, mesh.vertices), "a part inside out is turned"
+    with pytest.raises(
+        ValueError, match=r"separate parts of the surface overlap, .* most_closed is"
+    ):
+        stuff_surface(*beside(body, arm), most_closed=0)
+
+
+def test_a_part_inside_another_one_changes_nothing() -> None:
+    body = box(0.0, 0.0, 0.0)
+    with pytest.warns(MeshNotice, match="one solid of separate parts that overlap"):
+        mesh = stuff_surface(*beside(body, box(0.6, 0.3, 0.3, size=(0.5, 0.5, 0.5))))
+    alone = stuff_surface(*body)
+    assert np.array_equal(mesh.tets, alone.tets)
+    assert mesh.volume == pytest.approx(alone.volume, rel=1e-5)
 
 
 def ring(gap: float) -> Surface:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import igl
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from snapspace import _core as core
 from snapspace.generators import bar
@@ -80,3 +82,44 @@ def test_the_first_of_equally_close_faces_is_found_in_any_order_of_points() -> N
     assert np.array_equal(tree.closest(points[order], np.inf)[0], found[order])
     for threads in (1, 2, 3):
         assert np.array_equal(tree.closest(points, np.inf, threads)[1], distances)
+
+
+@settings(max_examples=20)
+@given(SEEDS)
+def test_winding_numbers_are_those_of_the_solid_angles(seed: int) -> None:
+    """Of bars that overlap, one of them inside out."""
+    rng = np.random.default_rng(seed)
+    vertices, faces = [], []
+    for part in range(4):
+        mesh = bar(2, 1, 1, length=2.0, width=1.0, height=1.0)
+        turned = mesh.surface if part else mesh.surface[:, ::-1]
+        faces.append(turned + part * len(mesh.vertices))
+        turn = Rotation.random(random_state=int(rng.integers(1 << 30)))
+        vertices.append(mesh.vertices @ turn.as_matrix() + rng.normal(scale=0.4, size=3))
+    surface = np.concatenate(vertices), np.concatenate(faces).astype(np.int32)
+    points = rng.normal(size=(200, 3))
+    found = core.FaceTree(*surface).windings(points)
+    np.testing.assert_allclose(found, igl.winding_number(*surface, points), atol=1e-9)
+
+
+def test_rays_through_edges_and_corners_count_once() -> None:
+    """The points are in rows with the vertices, which rays meet on their way."""
+    mesh = bar(6, 4, 4, length=3.0, width=2.0, height=2.0)
+    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+    axes = [
+        np.linspace(a - 0.25, b + 0.25, int(4 * (b - a)) + 3)
+        for a, b in zip(low, high, strict=True)
+    ]
+    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    clear = (np.abs(points - low) > 1e-9).all(axis=1) & (np.abs(points - high) > 1e-9).all(axis=1)
+    inside = ((points > low) & (points < high)).all(axis=1)
+    found = core.FaceTree(mesh.vertices, mesh.surface).windings(points)
+    assert np.array_equal(found[clear], inside[clear])
+    assert clear.sum() > 500
+
+
+def test_windings_do_not_depend_on_the_number_of_threads() -> None:
+    rng = np.random.default_rng(0)
+    mesh = bar(4, 3, 2)
+    tree, points = core.FaceTree(mesh.vertices, mesh.surface), rng.normal(size=(2000, 3))
+    assert np.array_equal(tree.windings(points, threads=1), tree.windings(points, threads=2))

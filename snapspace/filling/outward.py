@@ -1,0 +1,48 @@
+"""facing_outward: orients every part of a closed surface outward, except for cavities."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..doctor.components import face_components
+from ..mesh.arrays import FloatArray, IndexArray
+from ..mesh.closed_surface import enclosed_volume
+from ..mesh.signed_distance import SignedDistance
+
+#: Distance from the surface, in diagonals, at which a point is clearly on one side of it.
+BESIDE = 1e-6
+
+
+def facing_outward(vertices: FloatArray, faces: IndexArray) -> IndexArray:
+    """The faces of a closed surface, turned so that their normals leave the solid.
+
+    If the enclosed volume is negative, all faces are turned. Then a part that still faces inward is
+    turned as well, unless there is solid all around it: it is the wall of a cavity. Programs that
+    mirror parts of a character often leave them inside out.
+
+    Parameters
+    ----------
+    vertices : ndarray, (n, 3)
+        Of diagonal one.
+    faces : ndarray of int32, (f, 3)
+
+    Returns
+    -------
+    ndarray of int32, (f, 3)
+    """
+    turned = np.ascontiguousarray(faces[:, ::-1])
+    if enclosed_volume(vertices, faces) < 0:
+        faces, turned = turned, faces
+    component = face_components(faces, len(vertices))
+    corners = vertices[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    volumes = np.bincount(component, np.einsum("ij,ij->i", corners[:, 0], normals))
+    inward = (volumes < 0)[component]
+    if not inward.any():
+        return faces
+    length = np.linalg.norm(normals, axis=1, keepdims=True)
+    units = np.divide(normals, length, out=np.zeros_like(normals), where=length > 0)
+    beneath = (corners.mean(axis=1) - BESIDE * units)[inward]
+    is_empty = SignedDistance(vertices, faces).windings(beneath) < 1
+    wrong = np.bincount(component[inward], is_empty, minlength=len(volumes)) > 0
+    return np.where(wrong[component, None], turned, faces)
