@@ -14,6 +14,7 @@ from .components import face_components, orientation
 from .fill_holes import closable_holes
 from .finding import AS_SHELL, Finding
 from .holes import Hole, is_sheet
+from .minor_parts import minor_parts
 from .parts_apart import parts_apart
 
 #: Parts with a smaller share of the volume are dust, which filling leaves out. The area decides if
@@ -27,11 +28,15 @@ def edge_findings(vertices: FloatArray, faces: IndexArray, edges: Edges) -> list
     fans = int((edges.uses > 2).sum())
     parts = int(face_components(faces, len(vertices)).max()) + 1
     found: list[Finding] = []
+    beside = np.zeros(len(faces), np.bool_)  # open parts that filling leaves out
     if (edges.uses == 1).any():
         oriented = np.where(turn[:, None], faces[:, ::-1], faces)  # as mending does it first
         diagonal = float(np.linalg.norm(np.ptp(vertices, axis=0)))
         holes = closable_holes(vertices, oriented)
-        found.append(_holes(holes, is_sheet(vertices, faces), diagonal))
+        left = [hole.vertices for hole, fill in holes if fill is None]
+        beside = minor_parts(vertices, faces, np.concatenate([*left, []]).astype(np.intp))
+        sheet = is_sheet(vertices, faces)
+        found.append(_holes(holes, sheet, diagonal, beside=bool(beside.any())))
     if turn.any() or twisted.any():
         found.append(_orientation(turn, twisted))
     if fans:
@@ -49,7 +54,9 @@ def edge_findings(vertices: FloatArray, faces: IndexArray, edges: Edges) -> list
             )
         )
     if parts > 1:
-        found.append(_parts(parts, *parts_apart(vertices, faces)))
+        group = np.full(len(faces), -1)
+        group[~beside], share = parts_apart(vertices, faces[~beside])
+        found.append(_parts(parts, group, share))
     return found
 
 
@@ -110,7 +117,10 @@ def copy_findings(clean: Cleaned, unused: int) -> list[Finding]:
     return found
 
 
-def _holes(holes: list[tuple[Hole, IndexArray | None]], sheet: bool, diagonal: float) -> Finding:
+def _holes(
+    holes: list[tuple[Hole, IndexArray | None]], sheet: bool, diagonal: float, *, beside: bool
+) -> Finding:
+    """`beside`: whether holes that cannot be closed are in parts beside the body only."""
     some = [
         f"{hole.edges} edges, length {hole.length:.4g}, around {point_text(hole.center, diagonal)}"
         for hole, _ in holes[:3]
@@ -120,11 +130,15 @@ def _holes(holes: list[tuple[Hole, IndexArray | None]], sheet: bool, diagonal: f
     share = "them" if can == len(holes) else f"{can} of {len(holes)}"
     if can == len(holes):
         filling = "closes them"
+    elif beside:
+        closes = f"closes {share}, and " * (can > 0)
+        filling = f"{closes}leaves out open parts such as cloth, which the nearest tets carry"
     elif can:
         filling = f"closes {share}, and leaves the others to the winding number (fTetWild)"
     else:
         filling = "closes none of them, and guesses the inside by the winding number (fTetWild)"
-    cures = [f"--fix closes {share}"] * (can > 0) + ["close them in a mesh editor"]
+    cures = [f"--fix closes {share}"] * (can > 0)
+    cures.append("leave cloth and hair open" if beside else "close them in a mesh editor")
     if sheet:
         cures.append(AS_SHELL)
     return Finding(

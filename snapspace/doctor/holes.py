@@ -12,6 +12,7 @@ from scipy.sparse.csgraph import connected_components
 from ..mesh.arrays import IndexArray
 from ..mesh.edges import Edges, edges_of
 from .cleaned import cleaned
+from .minor_parts import minor_parts
 
 FloatArray = NDArray[np.float64]
 
@@ -102,7 +103,8 @@ def is_sheet(vertices: FloatArray, faces: IndexArray) -> bool:
 
 
 def has_wide_hole(vertices: FloatArray, faces: IndexArray) -> bool:
-    """Whether a surface has a hole that is wider than a fault."""
+    """Whether a surface has a hole that is wider than a fault, not only in minor parts of it."""
     diagonal = float(np.linalg.norm(np.ptp(vertices[faces].reshape(-1, 3), axis=0)))
     holes = holes_of(vertices, edges_of(faces))
-    return any(hole.diameter > WIDEST_FAULT * diagonal for hole in holes)
+    wide = [hole.vertices for hole in holes if hole.diameter > WIDEST_FAULT * diagonal]
+    return bool(wide) and not minor_parts(vertices, faces, np.concatenate(wide)).any()

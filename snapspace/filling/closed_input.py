@@ -13,11 +13,13 @@ from ..counted import counted
 from ..doctor.cleaned import coincide
 from ..doctor.edge_findings import DUST
 from ..doctor.mend_surface import mend_surface
+from ..doctor.minor_parts import minor_parts
 from ..doctor.parts_apart import parts_apart
 from ..input_error import InputError
 from ..mesh import MeshNotice, compact_surface
 from ..mesh.arrays import FloatArray, IndexArray, as_indices, as_points
 from ..mesh.closed_surface import check_closed, enclosed_volume, is_flat
+from ..mesh.edges import edges_of
 from ..mesh.validation import check_indices, check_points
 from ..notice import notify
 from .outward import facing_outward
@@ -51,8 +53,9 @@ def closed_input(
     """Checks and scales a surface to diagonal one; ValueError unless it encloses a solid.
 
     With `mend`, a surface that is not closed or not consistently oriented, or has faces that
-    coincide, is mended, see `mend_surface`, and a `MeshNotice` says what was done. With
-    `leave_open` as well, the result may still be open.
+    coincide, is mended, see `mend_surface`, and a `MeshNotice` says what was done. Parts that stay
+    open and have less than half of the area are left out. With `leave_open` as well, the result may
+    still be open.
     """
     points = as_points(vertices, who=who)
     triangles = as_indices(faces, corners=3, who=who, what="faces")
@@ -90,16 +93,24 @@ def _mended(
     """Vertices and faces, and whether they are closed now; the error if they must be."""
     mended = mend_surface(points, triangles)
     done = [f"the surface was mended for filling: {'; '.join(mended.notes)}"] * bool(mended.notes)
+    edges = edges_of(mended.faces)
+    open_parts = minor_parts(mended.vertices, mended.faces, edges.ends[edges.uses % 2 == 1])
+    if open_parts.any():
+        done.append(
+            "open parts of the surface, such as cloth or hair, are left out of the tets, and "
+            "carried by the nearest ones"
+        )
+    left = mended.faces[~open_parts]
     try:
-        check_closed(mended.faces, who=who)
+        check_closed(left, who=who)
         closed = True
-    except InputError as left:
+    except InputError as error:
         if not leave_open:
             raise
         closed = False
-        done.append(f"{left.fault.partition(':')[0]}, so the winding number determines the inside")
+        done.append(f"{error.fault.partition(':')[0]}, so the winding number determines the inside")
     notify(f"{'; '.join(done)}; `snapspace check` says more", MeshNotice, stacklevel=4)
-    return mended.vertices, mended.faces, closed
+    return mended.vertices, left, closed
 
 
 def _no_volume(triangles: IndexArray, *, who: str) -> NoSolidError:

@@ -44,9 +44,9 @@ def fill_surface(
         parts may be lost, and narrower gaps may be closed. Smaller values need more tets and time.
     mend : bool, default False
         Accept any triangles, such as scans with holes and triangle soup. Points are merged, faces
-        flipped and flat or small holes closed, see `mend_surface`. If the surface stays open, the
-        inside is where the generalised winding number is above one half. A `MeshNotice` says what
-        was done.
+        flipped and flat or small holes closed, see `mend_surface`. Separate parts that stay open
+        and have less than half of the area are left out. If more stays open, the inside is where
+        the generalised winding number is above one half. A `MeshNotice` says what was done.
     progress : callable, optional
         Called with the number of fTetWild's passes over all tets so far.
 

@@ -47,7 +47,8 @@ def stuff_surface(
         times, only where the tets lose a part of the surface, or touch each other.
     mend : bool, default False
         Mend a surface that is not closed or not consistently oriented, see `mend_surface`. A
-        `MeshNotice` says what was done. A surface that stays open is refused.
+        `MeshNotice` says what was done. Separate parts that stay open and have less than half of
+        the area are left out. If more stays open, the surface is refused.
     most_closed : int, default 4
         Largest number of narrow gaps or holes that the tets may close. For a pose that others are
         blended with, 0 is safer: where another pose opens such a gap, tets would be torn apart.

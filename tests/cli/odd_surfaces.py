@@ -78,6 +78,13 @@ def sheet() -> Surface:
     return compact_surface(vertices, faces[low[faces].all(axis=1)])
 
 
+def cloth() -> Surface:
+    """A sheet above the block that is bent, so that its edge is no flat hole."""
+    vertices, faces = sheet()
+    x = vertices[:, 0] - vertices[:, 0].mean()
+    return np.stack([vertices[:, 0], vertices[:, 1], 1.05 + x**2], axis=1), faces
+
+
 def with_fin() -> Surface:
     """The block with a face that stands on one of its edges."""
     vertices, faces = block()
@@ -112,6 +119,13 @@ ODD = {
         others=("components",),
         volume=2.0,
         said="1 small part of the surface is apart",
+    ),
+    "cloth beside it": Odd(
+        surface=together(block(), cloth()),
+        faults=("holes",),
+        others=("components",),
+        volume=2.0,
+        said="open parts of the surface, such as cloth or hair, are left out of the tets",
     ),
     "parts that overlap": Odd(
         surface=together(block(), block(x=1.1, y=0.31, z=0.27)),
