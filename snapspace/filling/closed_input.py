@@ -83,7 +83,7 @@ def closed_input(
     volume = enclosed_volume(scaled, triangles)
     if closed and abs(volume) < np.finfo(np.float64).eps:
         raise _no_volume(triangles, who=who)
-    outward = facing_outward(scaled, triangles)
+    outward = facing_outward(scaled, triangles, closed=closed)
     return ClosedInput(vertices=scaled, faces=outward, center=center, diagonal=diagonal)
 
 

@@ -1,4 +1,4 @@
-"""facing_outward: orients every part of a closed surface outward, except for cavities."""
+"""facing_outward: orients every part of a surface outward, except for cavities."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from ..mesh.signed_distance import SignedDistance
 BESIDE = 1e-6
 
 
-def facing_outward(vertices: FloatArray, faces: IndexArray) -> IndexArray:
-    """The faces of a closed surface, turned so that their normals leave the solid.
+def facing_outward(vertices: FloatArray, faces: IndexArray, *, closed: bool = True) -> IndexArray:
+    """The faces of a surface, turned so that their normals leave the solid.
 
     If the enclosed volume is negative, all faces are turned. Then a part that still faces inward is
     turned as well, unless there is solid all around it: it is the wall of a cavity. Programs that
@@ -25,6 +25,8 @@ def facing_outward(vertices: FloatArray, faces: IndexArray) -> IndexArray:
     vertices : ndarray, (n, 3)
         Of diagonal one.
     faces : ndarray of int32, (f, 3)
+    closed : bool, default True
+        False for a surface with holes: all faces are turned, or none.
 
     Returns
     -------
@@ -33,6 +35,8 @@ def facing_outward(vertices: FloatArray, faces: IndexArray) -> IndexArray:
     turned = np.ascontiguousarray(faces[:, ::-1])
     if enclosed_volume(vertices, faces) < 0:
         faces, turned = turned, faces
+    if not closed:
+        return faces
     component = face_components(faces, len(vertices))
     corners = vertices[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])

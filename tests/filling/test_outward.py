@@ -38,3 +38,12 @@ def test_a_part_inside_out_is_turned_beside_a_cavity() -> None:
     assert np.array_equal(
         facing_outward(*beside(BODY, CAVITY, inside_out(ARM))), beside(BODY, CAVITY, ARM)[1]
     )
+
+
+def test_parts_with_holes_are_turned_together() -> None:
+    """The volume of an open part depends on the origin."""
+    vertices, faces = beside(BODY, inside_out(ARM))
+    pierced = faces[:-1]
+    assert np.array_equal(facing_outward(vertices, pierced, closed=False), pierced)
+    turned = facing_outward(vertices, pierced[:, ::-1], closed=False)
+    assert np.array_equal(turned, pierced)
