@@ -50,7 +50,7 @@ class ClosedInput:
 def closed_input(
     vertices: ArrayLike, faces: ArrayLike, *, who: str, mend: bool = False, leave_open: bool = False
 ) -> ClosedInput:
-    """Checks and scales a surface to diagonal one; ValueError unless it encloses a solid.
+    """Checks, orients and scales a surface; ValueError unless it encloses a solid.
 
     With `mend`, a surface that is not closed or not consistently oriented, or has faces that
     coincide, is mended, see `mend_surface`, and a `MeshNotice` says what was done. Parts that stay
@@ -84,6 +84,10 @@ def closed_input(
     if closed and abs(volume) < np.finfo(np.float64).eps:
         raise _no_volume(triangles, who=who)
     outward = facing_outward(scaled, triangles, closed=closed)
+    turned = (outward != triangles).any(axis=1)
+    if turned.any() and not turned.all():
+        what = "parts of the surface were inside out, and were turned for filling"
+        notify(what, MeshNotice, stacklevel=3)
     return ClosedInput(vertices=scaled, faces=outward, center=center, diagonal=diagonal)
 
 
