@@ -71,8 +71,9 @@ def view(
     FILE is a model, or a problem, tets or a surface on which you choose handles and compute models.
     Without FILE, drop a mesh on the page. A closed surface is first filled with tets, in seconds;
     if it is too thin for quick tets, fTetWild fills it, which takes up to a few minutes. An open
-    surface is a shell: it stays as it is. In the page you can switch between the two; --shell makes
-    any surface a shell, --edge-length and --exact fill any surface.
+    surface is a shell: it stays as it is, unless it is a body with open parts such as cloth. In the
+    page you can switch between the two; --shell makes any surface a shell, --edge-length and
+    --exact fill any surface.
 
     The command opens the page, or prints its address if there is no browser; Ctrl-C ends it. Shapes
     are solved in the page, so it is as fast through a tunnel: `ssh -L 8000:localhost:8000 ...` on

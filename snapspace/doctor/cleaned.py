@@ -39,7 +39,7 @@ def cleaned(vertices: FloatArray, faces: IndexArray) -> Cleaned:
     """
     joined = _on_first_points(vertices, faces)
     merged = 0
-    if _open(faces) or repeated_faces(_proper(joined)).any():
+    if _open(faces) or _repeat(joined):
         merged = len(np.unique(faces)) - len(np.unique(joined))
         faces = joined
     kept = _proper(faces)
@@ -51,7 +51,7 @@ def cleaned(vertices: FloatArray, faces: IndexArray) -> Cleaned:
 
 def coincide(vertices: FloatArray, faces: IndexArray) -> bool:
     """Whether two faces have the same three positions, as the sides of a wall between solids."""
-    return bool(repeated_faces(_proper(_on_first_points(vertices, faces))).any())
+    return _repeat(_on_first_points(vertices, faces))
 
 
 def _on_first_points(vertices: FloatArray, faces: IndexArray) -> IndexArray:
@@ -63,6 +63,10 @@ def _on_first_points(vertices: FloatArray, faces: IndexArray) -> IndexArray:
 def _proper(faces: IndexArray) -> IndexArray:
     """The faces whose vertices are three different ones."""
     return np.asarray(faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)])
+
+
+def _repeat(faces: IndexArray) -> bool:
+    return bool(repeated_faces(_proper(faces)).any())
 
 
 def _open(faces: IndexArray) -> bool:

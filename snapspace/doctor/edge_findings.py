@@ -13,7 +13,7 @@ from .cleaned import Cleaned
 from .components import face_components, orientation
 from .fill_holes import closable_holes
 from .finding import AS_SHELL, Finding
-from .holes import Hole, is_sheet
+from .holes import Hole, is_sheet, vertices_at
 from .minor_parts import minor_parts
 from .parts_apart import parts_apart
 
@@ -33,8 +33,8 @@ def edge_findings(vertices: FloatArray, faces: IndexArray, edges: Edges) -> list
         oriented = np.where(turn[:, None], faces[:, ::-1], faces)  # as mending does it first
         diagonal = float(np.linalg.norm(np.ptp(vertices, axis=0)))
         holes = closable_holes(vertices, oriented)
-        left = [hole.vertices for hole, fill in holes if fill is None]
-        beside = minor_parts(vertices, faces, np.concatenate([*left, []]).astype(np.intp))
+        left = vertices_at(hole for hole, fill in holes if fill is None)
+        beside = minor_parts(vertices, faces, left)
         sheet = is_sheet(vertices, faces)
         found.append(_holes(holes, sheet, diagonal, beside=bool(beside.any())))
     if turn.any() or twisted.any():

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ..mesh.edges import edges_of
 from .cleaned import repeated_faces
-from .holes import Hole, holes_of
+from .holes import Hole, holes_of, vertices_at
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int32]
@@ -28,8 +28,7 @@ def closable_holes(vertices: FloatArray, faces: IndexArray) -> list[tuple[Hole, 
     diagonal = float(np.linalg.norm(np.ptp(vertices[faces].reshape(-1, 3), axis=0)))
     holes = holes_of(vertices, edges_of(faces))
     at_hole = np.zeros(len(vertices), np.bool_)
-    for hole in holes:
-        at_hole[hole.vertices] = True
+    at_hole[vertices_at(holes)] = True
     near = faces[at_hole[faces].all(axis=1)]
     return [(hole, _closed_by(vertices, near, hole, diagonal)) for hole in holes]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -64,6 +65,11 @@ def holes_of(vertices: FloatArray, edges: Edges) -> list[Hole]:
     return sorted(holes, key=lambda hole: -hole.length)
 
 
+def vertices_at(holes: Iterable[Hole]) -> NDArray[np.intp]:
+    """The vertices at any of the holes."""
+    return np.concatenate([np.empty(0, np.intp), *(hole.vertices for hole in holes)])
+
+
 def _hole(vertices: FloatArray, directed: NDArray[np.intp]) -> Hole:
     used = np.unique(directed)
     points = vertices[used]
@@ -106,5 +112,5 @@ def has_wide_hole(vertices: FloatArray, faces: IndexArray) -> bool:
     """Whether a surface has a hole that is wider than a fault, not only in minor parts of it."""
     diagonal = float(np.linalg.norm(np.ptp(vertices[faces].reshape(-1, 3), axis=0)))
     holes = holes_of(vertices, edges_of(faces))
-    wide = [hole.vertices for hole in holes if hole.diameter > WIDEST_FAULT * diagonal]
-    return bool(wide) and not minor_parts(vertices, faces, np.concatenate(wide)).any()
+    wide = vertices_at(hole for hole in holes if hole.diameter > WIDEST_FAULT * diagonal)
+    return wide.size > 0 and not minor_parts(vertices, faces, wide).any()

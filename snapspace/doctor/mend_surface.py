@@ -11,6 +11,7 @@ from ..counted import counted
 from ..mesh.arrays import IndexArray
 from ..mesh.closed_surface import enclosed_volume
 from ..mesh.edges import edges_of
+from ..mesh.quality import triangle_areas
 from ..mesh.surface import compact_surface
 from ..mesh.surface_file.surface_file import checked_surface
 from .cleaned import cleaned
@@ -103,7 +104,7 @@ def mend_surface(
     if fills:
         mended = np.concatenate([mended, *fills])
     invented = sum(map(len, fills))
-    area = _area(used, mended[len(mended) - invented :])
+    area = float(triangle_areas(used, mended[len(mended) - invented :]).sum())
     if fills:
         closed = counted(len(fills), "hole")
         notes.append(f"closed {closed} with {counted(invented, 'face')}, area {area:.4g}")
@@ -114,8 +115,3 @@ def mend_surface(
     return MendedSurface(
         vertices=used, faces=mended, invented=invented, invented_area=area, notes=tuple(notes)
     )
-
-
-def _area(vertices: FloatArray, faces: IndexArray) -> float:
-    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
-    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2.0)

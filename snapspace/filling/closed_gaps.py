@@ -19,16 +19,16 @@ def notice_joined(mesh: TetMesh, solid: EnclosedSolid) -> None:
     """A `MeshNotice` if the tets join parts of the surface, or close holes in it."""
     difference = _difference(mesh, solid)
     places = counted(abs(difference) // 2, "place", "places")
-    cure = "; a shorter edge length or fTetWild (--exact, `fill_surface`) may keep them open"
+    cure = "a shorter edge length or fTetWild (--exact, `fill_surface`) may keep them open"
     if solid.is_joined:
-        what, cure = "make one solid of separate parts that overlap", ""
+        what = "make one solid of separate parts that overlap"
     elif difference < 0:
-        what = f"join parts of the surface that nearly touch, in {places}"
+        what = f"join parts of the surface that nearly touch, in {places}; {cure}"
     elif difference > 0:
-        what = f"close narrow holes through the surface, in {places}"
+        what = f"close narrow holes through the surface, in {places}; {cure}"
     else:
         return
-    notify(f"the tets {what}{cure}", MeshNotice, stacklevel=3)
+    notify(f"the tets {what}", MeshNotice, stacklevel=3)
 
 
 def _difference(mesh: TetMesh, solid: EnclosedSolid) -> int:

@@ -91,4 +91,6 @@ class EnclosedSolid:
             return self._distance.windings(places + beyond * outward) > 0
 
         exposed = is_solid(BESIDE) != is_solid(-BESIDE)
-        return points, exposed & ~is_solid(clear) if clear else exposed
+        if clear:
+            exposed &= ~is_solid(clear)
+        return points, exposed

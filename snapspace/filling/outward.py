@@ -6,7 +6,6 @@ import numpy as np
 
 from ..doctor.components import face_components
 from ..mesh.arrays import FloatArray, IndexArray
-from ..mesh.closed_surface import enclosed_volume
 from ..mesh.signed_distance import SignedDistance
 
 #: Distance from the surface, in diagonals, at which a point is clearly on one side of it.
@@ -32,21 +31,16 @@ def facing_outward(vertices: FloatArray, faces: IndexArray, *, closed: bool = Tr
     -------
     ndarray of int32, (f, 3)
     """
-    turned = np.ascontiguousarray(faces[:, ::-1])
-    if enclosed_volume(vertices, faces) < 0:
-        faces, turned = turned, faces
-    if not closed:
-        return faces
     component = face_components(faces, len(vertices))
-    corners = vertices[faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    volumes = np.bincount(component, np.einsum("ij,ij->i", corners[:, 0], normals))
+    volumes = np.bincount(component, np.linalg.det(vertices[faces]))  # times six
+    turned = np.ascontiguousarray(faces[:, ::-1])
+    if volumes.sum() < 0:
+        faces, turned, volumes = turned, faces, -volumes
     inward = (volumes < 0)[component]
-    if not inward.any():
+    if not closed or not inward.any():
         return faces
-    length = np.linalg.norm(normals, axis=1, keepdims=True)
-    units = np.divide(normals, length, out=np.zeros_like(normals), where=length > 0)
-    beneath = (corners.mean(axis=1) - BESIDE * units)[inward]
-    is_empty = SignedDistance(vertices, faces).windings(beneath) < 1
+    surface = SignedDistance(vertices, faces)
+    beneath = vertices[faces].mean(axis=1) - BESIDE * surface.face_normals
+    is_empty = surface.windings(beneath[inward]) < 1
     wrong = np.bincount(component[inward], is_empty, minlength=len(volumes)) > 0
     return np.where(wrong[component, None], turned, faces)

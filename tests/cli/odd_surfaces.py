@@ -5,14 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from snapspace.generators import bar
 from snapspace.mesh import compact_surface
 
-from ..filling.surfaces import beside
-
-Surface = tuple[NDArray[np.float64], NDArray[np.int32]]
+from ..filling.surfaces import Surface, beside, inside_out
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,10 +64,6 @@ def together(*surfaces: Surface) -> Surface:
     return merged, index.reshape(-1)[faces].astype(np.int32)
 
 
-def turned(surface: Surface) -> Surface:
-    return surface[0], surface[1][:, ::-1]
-
-
 def sheet() -> Surface:
     """The lower side of the block."""
     vertices, faces = block()
@@ -105,7 +98,7 @@ ODD = {
     ),
     "a sheet": Odd(surface=sheet(), faults=("flat",), said=NO_VOLUME),
     "a sheet with two sides": Odd(
-        surface=together(sheet(), turned(sheet())),
+        surface=together(sheet(), inside_out(sheet())),
         faults=("duplicate faces", "flat"),
         said=NO_VOLUME,
     ),
@@ -157,7 +150,7 @@ ODD = {
     ),
     "an edge of three faces": Odd(surface=with_fin(), faults=("holes", "non-manifold edges")),
     "a thin shell": Odd(
-        surface=together(ball(16), turned(ball(16, 0.98))), others=("components", "thin")
+        surface=together(ball(16), inside_out(ball(16, 0.98))), others=("components", "thin")
     ),
     "as large as 1e6": Odd(surface=block(scale=1e6), volume=2e18),
     "as small as 1e-6": Odd(surface=block(scale=1e-6), volume=2e-18),

@@ -11,13 +11,14 @@ from snapspace.filling import stuff_surface
 from snapspace.mesh import MeshNotice
 from snapspace.mesh.closed_surface import enclosed_volume
 
-from ..cli.odd_surfaces import Surface, ball, block, together, turned
+from ..cli.odd_surfaces import ball, block, together
+from ..filling.surfaces import Surface, inside_out
 
 SPHERE = ball(12)
 #: A block in a corner of the sphere's bounding box, and outside of the sphere.
 CORNER = block(0.75, 0.75, 0.75, scale=0.1)
 INSIDE = block(0.0, 0.0, 0.0, scale=0.1)
-CAVITY = turned(ball(12, 0.5))
+CAVITY = inside_out(ball(12, 0.5))
 
 CASES: dict[str, tuple[tuple[Surface, ...], list[int]]] = {
     "apart, with boxes that overlap": ((SPHERE, CORNER), [0, 1]),
